@@ -14,16 +14,12 @@ pub struct Settings {
     /// Chains with more bars are refused with an estimate of the cost. Default 16 (some seconds of a
     /// processor, and up to 100,000 equilibria), from 1 to [`Settings::MAX_BARS`].
     pub max_bars: usize,
-    /// Joints held by three long strands of more bars together are refused with an estimate of the
-    /// cost. Default 12 (a minute), from 1 to [`Settings::MAX_BARS`].
-    pub max_bridle_bars: usize,
     /// Tests of one cell for one pattern, per pattern on average, after which all cells left are
     /// listed as undecided. Generic chains need a few hundred; default 20,000, from 1 to 10⁹. A net whose members
     /// may be slack shares them among the sets of slack members.
     pub max_tests_per_pattern: u64,
-    /// Nets of several closures whose knots have more independent motions than this are refused,
-    /// bridles of three strands excepted: the cost grows with the power of their number. Default 3,
-    /// from 1 to 6.
+    /// Nets of several closures whose knots have more independent motions than this are refused: the cost grows with the
+    /// power of their number. Default 4, from 1 to 6.
     pub max_motions: usize,
 }
 
@@ -57,7 +53,6 @@ impl Settings {
     pub fn validate(&self) -> Result<(), CensusError> {
         let fields = [
             ("max_bars", self.max_bars as u64, Self::MAX_BARS as u64, "from 1 to 24"),
-            ("max_bridle_bars", self.max_bridle_bars as u64, Self::MAX_BARS as u64, "from 1 to 24"),
             ("max_tests_per_pattern", self.max_tests_per_pattern, 1_000_000_000, "from 1 to 1e9"),
             ("max_motions", self.max_motions as u64, Self::MAX_MOTIONS as u64, "from 1 to 6"),
         ];
@@ -72,7 +67,7 @@ impl Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { max_bars: 16, max_bridle_bars: 12, max_tests_per_pattern: 20_000, max_motions: 3 }
+        Self { max_bars: 16, max_tests_per_pattern: 20_000, max_motions: 4 }
     }
 }
 

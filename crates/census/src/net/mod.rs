@@ -25,13 +25,6 @@
 //! Each equilibrium is then enclosed by Krawczyk's test on the equations (1) and (2) of [`boxes`](crate::boxes), and its index follows from
 //! the inertia of the bordered second derivative.
 //!
-//! A bridle of three strands of which one has three bars or more has two independent closures too,
-//! and six unknowns, the pulls of two strands, whatever the number of its bars: a strand under
-//! upright loads hangs in a plane, and its pull and a pattern of tension and compression tell its
-//! shape as they do that of a chain. Branch and bound goes through the places of the knot, and with
-//! each box goes the list of the cells of pulls with which each strand reaches it (module
-//! `bridle`).
-//!
 //! Cables, struts and ropes beside bars are taut or slack: for each set of slack ones the others make a system of
 //! their own (module `branch`), whose equilibria are kept where the taut ones pull or push as they can and the slack ones do not
 //! reach. In a net a rope is one link of several spans with one tension $N$ and equation (3); an elastic member tells
@@ -46,7 +39,6 @@
 //! refused; what cannot be decided is listed.
 
 mod branch;
-mod bridle;
 mod choice;
 mod convex;
 mod knots;
@@ -64,7 +56,6 @@ use model::system::{Joint, Kind, Support, System};
 use model::{NoCensus, Vector as Point};
 use numerics::Interval;
 
-pub use self::bridle::bridle_seconds;
 pub use self::knots::{NetCensus, Open, UndecidedPlaces};
 pub use self::position::SystemPosition;
 pub use self::row::LoadedRow;

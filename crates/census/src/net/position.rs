@@ -235,7 +235,7 @@ impl SystemCensus {
         let two_sided = |member: &&usize| system.members()[**member].kind == Kind::Bar;
         let signs = |part: &PartCensus| {
             let of_chain = part.chain.as_ref().map_or(0, |chain| chain.members.len());
-            let of_net = part.net.as_ref().map_or(0, |net| net.signs);
+            let of_net = part.net.as_ref().map_or(0, |net| net.swings.len());
             part.hanging.iter().filter(two_sided).count() + of_chain + of_net
         };
         let patterns =

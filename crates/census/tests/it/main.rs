@@ -4,7 +4,6 @@
 
 mod beside;
 mod boxes;
-mod bridles;
 mod compact;
 mod completeness;
 mod degenerate;

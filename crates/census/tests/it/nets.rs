@@ -10,12 +10,11 @@ use samples::assert_frozen;
 use census::Settings;
 use census::net::{Open, SystemCensus};
 
-use crate::bridles::drawn;
 use crate::support::{Acting, G, light, taken};
 
 /// Strands of bars of these lengths from anchors to one knot; weights at all joints, growing from
 /// strand to strand.
-pub(crate) fn bridle(anchors: &[Vector], strands: &[&[f64]], knot_kg: f64, kg: f64) -> System {
+fn bridle(anchors: &[Vector], strands: &[&[f64]], knot_kg: f64, kg: f64) -> System {
     let mut joints = vec![Joint::free("knot").with_mass(knot_kg)];
     let mut members = vec![];
     let mut mass_kg = kg;
@@ -35,6 +34,22 @@ pub(crate) fn bridle(anchors: &[Vector], strands: &[&[f64]], knot_kg: f64, kg: f
     System::new("bridle", G, joints, members).unwrap()
 }
 
+/// Strands of so many bars, about as long as the bridle asks for, drawn at random.
+fn drawn(random: &mut ChaCha8Rng, bars: &[usize]) -> System {
+    let (mut anchors, mut lengths) = (vec![], vec![]);
+    for (k, strand) in bars.iter().enumerate() {
+        let part = (k as f64 + random.random_range(-0.3..0.3)) / bars.len() as f64;
+        let angle = part * std::f64::consts::TAU;
+        anchors.push([2.0 * angle.cos(), 2.0 * angle.sin(), random.random_range(-0.5..0.5)]);
+        let total = random.random_range(2.3..3.5);
+        let parts: Vec<f64> = (0..*strand).map(|_| random.random_range(0.7..1.3)).collect();
+        let whole: f64 = parts.iter().sum();
+        lengths.push(parts.into_iter().map(|part| part * total / whole).collect::<Vec<f64>>());
+    }
+    let strands: Vec<&[f64]> = lengths.iter().map(Vec::as_slice).collect();
+    bridle(&anchors, &strands, random.random_range(0.0..1.0), random.random_range(0.1..1.0))
+}
+
 const CORNERS: [Vector; 3] = [[2.0, 0.0, 0.0], [-1.0, 1.5, 0.2], [-1.1, -1.6, -0.1]];
 
 /// The alternating sum of the indices.
@@ -45,7 +60,7 @@ fn alternating(census: &SystemCensus) -> i64 {
 /// By Morse theory the alternating sum of the indices is the Euler characteristic of the
 /// configurations, whatever the loads: of the knot and of the other joints, kg.
 #[track_caller]
-pub(crate) fn the_sum_is_the_same(strands: &[&[f64]; 3], loads_kg: &[(f64, f64)]) {
+fn the_sum_is_the_same(strands: &[&[f64]; 3], loads_kg: &[(f64, f64)]) {
     let sum = |(knot_kg, kg): &(f64, f64)| {
         let census = taken(&bridle(&CORNERS, strands, *knot_kg, *kg));
         assert!(census.complete, "{:?}", census.nets().next().unwrap().undecided);
@@ -65,6 +80,8 @@ fn the_alternating_sum_does_not_depend_on_the_loads() {
         [&[1.5, 1.4][..], &[1.3, 1.2], &[2.2]],
         [&[1.5, 1.4][..], &[1.3, 1.2], &[1.6, 1.1]],
         [&[1.5, 1.5][..], &[1.5, 1.5], &[1.5, 1.5]],
+        // Two knots in space, one of them in a strand.
+        [&[0.9, 0.95, 1.0][..], &[1.9], &[2.2]],
     ] {
         the_sum_is_the_same(&strands, &[(1.0, 0.5), (0.0, 1.0), (0.3, 2.0), (9.0, 0.1)]);
     }
@@ -150,7 +167,7 @@ fn what_has_no_list_is_named() {
 }
 
 /// How many of a list Newton's method finds; it must find nothing else.
-pub(crate) fn found_of(system: &System, census: &SystemCensus, starts: usize, seed: u64) -> usize {
+fn found_of(system: &System, census: &SystemCensus, starts: usize, seed: u64) -> usize {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut seen = vec![false; census.equilibria.len()];
     let acting = Acting::new(system, (0..system.members().len()).collect());
@@ -233,7 +250,7 @@ fn rings_of_every_number_of_knots_are_searched() {
 
 /// Positions, undecided boxes, the sum of all indices; cells and tests; the sums of the binary
 /// orders of the widths of places, in metres, and of forces, in newtons.
-pub(crate) fn work(census: &SystemCensus) -> [i64; 7] {
+fn work(census: &SystemCensus) -> [i64; 7] {
     #[expect(clippy::cast_possible_truncation, reason = "binary orders of doubles are small")]
     let order = |width: f64| if width > 0.0 { width.log2().floor() as i64 } else { 0 };
     let whole = |number: u64| i64::try_from(number).unwrap();

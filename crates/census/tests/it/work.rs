@@ -189,8 +189,7 @@ fn neither_threads_nor_units_change_a_digit() {
 /// the others why there is no census.
 #[test]
 fn work_of_systems() {
-    let settings =
-        Settings { max_bars: 6, max_bridle_bars: 4, max_motions: 2, ..Settings::default() };
+    let settings = Settings { max_bars: 6, max_motions: 2, ..Settings::default() };
     let mut found = Vec::new();
     for exhibit in model::cases::systems() {
         let row = match SystemCensus::take(&exhibit.system(), &settings) {
@@ -217,7 +216,7 @@ fn work_of_systems() {
     }
     let expected = [
         "lamp: [1, 3, 0, 0, 0, 1] 95 [-47, -45]",
-        "bridle: Bridle { bars: 24, limit: 4 }",
+        "bridle: Motions { closures: 2, motions: 30, limit: 2 }",
         "mobile: Motions { closures: 3, motions: 6, limit: 2 }",
         "footbridge: Slider { joint: 4 }",
         "net: Motions { closures: 67, motions: 87, limit: 2 }",
@@ -237,8 +236,7 @@ fn work_of_systems() {
 /// proofs of its entries.
 #[test]
 fn systems_scale_without_rounding() {
-    let settings =
-        Settings { max_bars: 6, max_bridle_bars: 4, max_motions: 2, ..Settings::default() };
+    let settings = Settings { max_bars: 6, max_motions: 2, ..Settings::default() };
     let mut compared = 0;
     for exhibit in model::cases::systems() {
         let system = exhibit.system();

@@ -56,12 +56,11 @@ impl Census {
         Self::default()
     }
 
-    /// Refuse chains and bridles of more bars, with an estimate of what they would cost; at most
+    /// Refuse chains of more bars, with an estimate of what they would cost; at most
     /// [`Settings::MAX_BARS`].
     #[must_use]
     pub fn max_bars(mut self, max_bars: usize) -> Self {
         self.settings.max_bars = max_bars;
-        self.settings.max_bridle_bars = max_bars;
         self
     }
 

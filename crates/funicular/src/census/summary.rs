@@ -69,8 +69,6 @@ pub struct Net {
     pub knots: Vec<String>,
     /// Joints that follow from their two neighbours.
     pub swings: Vec<String>,
-    /// Bars and joints of which both signs were tried.
-    pub signs: usize,
     /// Whether only equilibria in the vertical plane of the anchors were looked for.
     pub in_plane: bool,
     /// Boxes of places looked at.
@@ -256,7 +254,6 @@ impl Net {
             closures: net.closures,
             knots: names(system, &net.knots),
             swings: names(system, &net.swings),
-            signs: net.signs,
             in_plane: net.in_plane,
             cells: net.cells,
             tests: net.tests,

@@ -4,7 +4,7 @@ mod list;
 
 use std::path::{Path, PathBuf};
 
-use census::net::{LoadedRow, bridle_seconds};
+use census::net::LoadedRow;
 use census::{CensusError, Settings, rough_time};
 use clap::Args;
 use funicular::census::List;
@@ -34,13 +34,11 @@ pub struct Census {
     pub input: Source,
     #[command(flatten)]
     pub printed: Printed,
-    /// Refuse chains of more bars (16 if not given), and bridles (one joint held by three strands
-    /// of bars) of more bars together (12), with an estimate of what they would cost (at most 24)
-    #[arg(long, value_name = "N")]
-    pub max_bars: Option<usize>,
-    /// Refuse nets of several closures, but for bridles of three strands, whose joints move in more
-    /// independent ways than this (at most 6); joints between two bars that follow from their
-    /// neighbours are not counted
+    /// Refuse chains of more bars, with an estimate of what they would cost (at most 24)
+    #[arg(long, value_name = "N", default_value_t = Settings::default().max_bars)]
+    pub max_bars: usize,
+    /// Refuse nets of several closures whose joints move in more independent ways than this (at
+    /// most 6); joints between two bars that follow from their neighbours are not counted
     #[arg(long, value_name = "N", default_value_t = Settings::default().max_motions)]
     pub max_motions: usize,
     /// Draw the shapes into this file, .svg, .png, .pdf or .dxf: all up to 70, of more the first 70 by energy;
@@ -70,13 +68,8 @@ pub struct Census {
 pub fn run(arguments: &Census) -> Result<Exit> {
     arguments.printed.install();
     end_on_interrupt()?;
-    let usual = Settings::default();
-    let settings = Settings {
-        max_bars: arguments.max_bars.unwrap_or(usual.max_bars),
-        max_bridle_bars: arguments.max_bars.unwrap_or(usual.max_bridle_bars),
-        max_motions: arguments.max_motions,
-        ..usual
-    };
+    let Census { max_bars, max_motions, .. } = *arguments;
+    let settings = Settings { max_bars, max_motions, ..Settings::default() };
     settings.validate().map_err(Error::from)?;
     arguments.threads.install()?;
     let progress = Progress::start();
@@ -151,7 +144,6 @@ fn how_far(now: census::Progress) -> String {
 /// Why there is no census, and how to go on.
 fn refuse(error: Error) -> Failure {
     const MOST: usize = Settings::MAX_BARS;
-    let bridle = |bars| rough_time(bridle_seconds(bars));
     let help = match error {
         Error::SystemCensus(NoCensus::Motions { motions, .. }, _) if motions <= Settings::MAX_MOTIONS => format!(
             "--max-motions {motions} tries it all the same. A net of three motions takes seconds, each motion more \
@@ -161,16 +153,6 @@ fn refuse(error: Error) -> Failure {
         Error::SystemCensus(NoCensus::Motions { .. }, _) => {
             "`funicular solve` finds equilibria of nets of any size; nobody knows how many there are".to_owned()
         }
-        Error::SystemCensus(NoCensus::Bridle { bars, .. }, _) if bars <= MOST => format!(
-            "--max-bars {bars} takes it all the same, in about {} of a processor (good to a factor of ten: the \
-             cost doubles with each bar, and is higher where all strands are long)",
-            bridle(bars)
-        ),
-        Error::SystemCensus(NoCensus::Bridle { bars, .. }, _) => format!(
-            "no census goes beyond {MOST} bars, and this one would take about {} of a processor. `funicular solve` \
-             finds equilibria of nets of any size; nobody knows how many there are",
-            bridle(bars)
-        ),
         Error::Census(CensusError::TooManyBars { bars, estimate_s, .. }) if bars <= MOST => format!(
             "--max-bars {bars} takes it all the same, in about {} of one processor (the search is good to a \
              factor of two, from a sample of the patterns; a busy machine takes several times that)",

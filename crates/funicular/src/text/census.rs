@@ -345,9 +345,6 @@ fn nets(answer: &CensusAnswer) -> String {
         );
         if !net.swings.is_empty() {
             let _ = write!(text, "; {} by closed forms", names(&net.swings));
-        } else if net.signs > 0 {
-            let _ =
-                write!(text, " and all pulls of the strands of {} bars that hold it", net.signs);
         }
         let _ = writeln!(text, "; {} boxes, {} undecided.", net.cells, net.undecided.len());
         if net.in_plane {

@@ -65,14 +65,6 @@ pub enum NoCensus {
         /// The limit.
         limit: usize,
     },
-    /// A bridle of three strands has more bars than the census takes.
-    #[error("no census: the strands of a bridle have {bars} bars, and the limit is {limit}")]
-    Bridle {
-        /// Number of bars of all strands.
-        bars: usize,
-        /// The limit.
-        limit: usize,
-    },
     /// The list of a net leaves boxes of places of its joints undecided.
     #[error("{boxes} boxes of places of the joints of a net are undecided")]
     Undecided {

@@ -24,15 +24,15 @@
 
 mod box_test;
 mod cell;
-pub(super) mod dense;
-pub(super) mod enclose;
-pub(super) mod inertia;
+mod dense;
+mod enclose;
+mod inertia;
 mod jet;
 mod layout;
-pub(super) mod newton;
+mod newton;
 mod pieces;
 mod reach;
-pub(super) mod search;
+mod search;
 mod swing;
 mod unknown_forces;
 
@@ -45,7 +45,6 @@ use self::enclose::{Enclosed, enclosed};
 use self::layout::Layout;
 pub(super) use self::pieces::Core;
 use self::search::{Search, search};
-use super::bridle;
 use super::choice::Choice;
 use crate::boxes::arithmetic::NOWHERE;
 use crate::branch_and_bound::{encloses, hull};
@@ -74,9 +73,6 @@ pub struct NetCensus {
     pub knots: Vec<usize>,
     /// Joints between two bars each that follow from those, from 0; each doubles the patterns.
     pub swings: Vec<usize>,
-    /// Two-valued choices that the search went through in all combinations: the side of each joint
-    /// that swings, or pull and push of each bar of a bridle of long strands.
-    pub signs: usize,
     /// Whether only equilibria in the vertical plane of the anchors were looked for: in space the
     /// joints move in too many ways. The list is then not complete, whatever is undecided.
     pub in_plane: bool,
@@ -96,8 +92,7 @@ pub struct UndecidedPlaces {
     pub reason: Open,
     /// The places of the knots, m.
     pub knots_m: Vec<[Interval; 3]>,
-    /// How many patterns of signs are in question, at most: all combinations of those that each
-    /// strand may have there.
+    /// How many patterns of signs are in question, at most.
     pub patterns: usize,
 }
 
@@ -126,11 +121,6 @@ pub(super) fn taken(
     watch: &dyn Fn(Progress),
 ) -> Result<(NetCensus, Vec<Choice>), NoCensus> {
     let space = Layout::new(core, 3, [0, 1, 2])?;
-    let turns = core.axis().is_some();
-    let bridle = || bridle::taken(core, space.motions(), settings, watch);
-    if let Some(taken) = if turns { None } else { bridle()? } {
-        return Ok(taken);
-    }
     let layout = laid_out(core, space, settings)?;
     Ok(match layout.coordinates() {
         0..=3 => searched::<3>(core, &layout, settings, watch),
@@ -146,9 +136,6 @@ pub(super) fn refusal(core: &Core, settings: &Settings) -> Result<(), NoCensus> 
     let is_flat = space.knots.len() == 1 && space.swings.is_empty();
     if let Some(joint) = core.turning().or(axis.filter(|_| !is_flat)) {
         return Err(NoCensus::Turns { joint: joint + 1 });
-    }
-    if axis.is_none() && bridle::refusal(core, space.motions(), settings)? {
-        return Ok(());
     }
     laid_out(core, space, settings).map(|_| ())
 }
@@ -190,21 +177,17 @@ fn searched<const N: usize>(
         _ => Open::Degenerate,
     };
     let mut open: Vec<UndecidedPlaces> = vec![];
-    let undecided = undecided.into_iter().map(|task| (task.at, vec![task.patterns]));
-    for (at, patterns) in gathered(undecided) {
-        let patterns = patterns.iter().map(Vec::len).sum();
-        open.push(places(core, layout, reason(&at), &at, patterns));
+    for (at, patterns) in gathered(undecided.into_iter().map(|task| (task.at, task.patterns))) {
+        open.push(places(core, layout, reason(&at), &at, patterns.len()));
     }
     for jammed in layout.jammed() {
         let search = search::<N>(&jammed, budget, watch);
         cells += search.cells;
         tests += search.tests;
-        let found =
-            search.found.into_iter().map(|found| (found.alone_in, vec![vec![found.pattern]]));
-        let undecided = search.undecided.into_iter().map(|task| (task.at, vec![task.patterns]));
+        let found = search.found.into_iter().map(|found| (found.alone_in, vec![found.pattern]));
+        let undecided = search.undecided.into_iter().map(|task| (task.at, task.patterns));
         for (at, patterns) in gathered(found.chain(undecided)) {
-            let patterns = patterns.iter().map(Vec::len).sum();
-            open.push(places(core, &jammed, Open::Jam, &at, patterns));
+            open.push(places(core, &jammed, Open::Jam, &at, patterns.len()));
         }
     }
     let mut once: Vec<(Found<N>, Enclosed)> = vec![];
@@ -231,7 +214,6 @@ fn searched<const N: usize>(
         closures: core.closures(),
         knots: layout.knots.clone(),
         swings: layout.swings.iter().map(|swing| swing.joint).collect(),
-        signs: layout.swings.len(),
         in_plane: layout.dim == 2 && layout.axis.is_none(),
         cells,
         tests,
@@ -261,26 +243,23 @@ fn places<const N: usize>(
 /// More boxes than this are not told apart: joining them takes the square of their number.
 const MOST_OPEN: usize = 512;
 
-/// Boxes that touch become one, with all their patterns: a list for each of the strands, or one for
-/// all.
-pub(super) fn gathered<const N: usize, P: Ord>(
-    tasks: impl Iterator<Item = ([Interval; N], Vec<Vec<P>>)>,
-) -> Vec<([Interval; N], Vec<Vec<P>>)> {
-    let mut all: Vec<([Interval; N], Vec<Vec<P>>)> = vec![];
+/// Boxes that touch become one, with all their patterns.
+fn gathered<const N: usize, P: Ord>(
+    tasks: impl Iterator<Item = ([Interval; N], Vec<P>)>,
+) -> Vec<([Interval; N], Vec<P>)> {
+    let mut all: Vec<([Interval; N], Vec<P>)> = vec![];
     for (mut at, mut patterns) in tasks {
         let many = all.len() >= MOST_OPEN;
-        let touching = |all: &[([Interval; N], Vec<Vec<P>>)], at: &[Interval; N]| {
+        let touching = |all: &[([Interval; N], Vec<P>)], at: &[Interval; N]| {
             all.iter()
                 .position(|(other, _)| many || other.iter().zip(at).all(|(a, b)| !a.disjoint(*b)))
         };
         while let Some(k) = touching(&all, &at) {
             let (other, more) = all.swap_remove(k);
             at = hull(at, other);
-            for (list, more) in patterns.iter_mut().zip(more) {
-                list.extend(more);
-                list.sort_unstable();
-                list.dedup();
-            }
+            patterns.extend(more);
+            patterns.sort_unstable();
+            patterns.dedup();
         }
         all.push((at, patterns));
     }
