@@ -19,7 +19,7 @@ pub struct Settings {
     /// may be slack shares them among the sets of slack members.
     pub max_tests_per_pattern: u64,
     /// Nets of several closures whose knots have more independent motions than this are refused: the cost grows with the
-    /// power of their number. Default 4, from 1 to 6.
+    /// power of their number. Default 3, from 1 to 6.
     pub max_motions: usize,
 }
 
@@ -67,7 +67,7 @@ impl Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { max_bars: 16, max_tests_per_pattern: 20_000, max_motions: 4 }
+        Self { max_bars: 16, max_tests_per_pattern: 20_000, max_motions: 3 }
     }
 }
 

@@ -18,9 +18,6 @@ const MEMBERS: usize = 24;
 const BARS: usize = 8;
 const TESTS: u64 = 2_000;
 
-/// Nets in them whose joints move in up to so many ways: each more takes ten times as long.
-const MOTIONS: usize = 3;
-
 /// The accuracy to which a solver may place a joint, in units of the total length.
 const PLACED: f64 = 1e-12;
 
@@ -29,12 +26,7 @@ const PLACED: f64 = 1e-12;
 /// # Errors
 /// [`NoCensus`]; of a large system, that it was not asked for.
 pub fn quick_census(system: &System) -> Result<SystemCensus, NoCensus> {
-    let quick = Settings {
-        max_bars: BARS,
-        max_motions: MOTIONS,
-        max_tests_per_pattern: TESTS,
-        ..Settings::default()
-    };
+    let quick = Settings { max_bars: BARS, max_tests_per_pattern: TESTS, ..Settings::default() };
     if system.members().len() > MEMBERS {
         return Err(NoCensus::NotAsked);
     }
