@@ -230,4 +230,4 @@ pub use simulate::{Motion, Simulate, SimulateError, Start};
 pub use solve::{Failure, Lists, Solve, SolveAnswer};
 pub use threads::MOST_THREADS;
 pub use tolerances::TolerancesAnswer;
-pub use weakest::Weakest;
+pub use weakest::{Unjudged, Weakest};

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use model::Vector;
-use model::system::System;
+use model::system::{Member, System};
+use numerics::vector::{minus, norm};
 use rayon::prelude::*;
 use serde::Serialize;
 use validate::UseCensus;
@@ -88,7 +89,25 @@ impl Solve {
     }
 }
 
-/// What is left of a system without a member.
+/// A member that rises by more than this part of its length and falls by more than it afterwards has turned over, as the guys
+/// of a mast do that is gone: one that is nearly level may sink.
+const OVER: f64 = 0.25;
+
+/// Whether a member has turned over from one shape to the other.
+fn is_overturned(system: &System, from_m: &[Vector], to_m: &[Vector]) -> bool {
+    let rise = |places: &[Vector], [a, b]: [usize; 2]| {
+        let d = minus(places[b], places[a]);
+        d[2] / norm(d)
+    };
+    let mut spans = system.members().iter().flat_map(Member::spans);
+    spans.any(|span| {
+        let [before, after] = [from_m, to_m].map(|places| rise(places, span));
+        before * after < 0.0 && before.abs().min(after.abs()) > OVER
+    })
+}
+
+/// What is left of a system without a member. Cables alone have one shape, far from their drawing or not: what stood and
+/// hangs there upside down has left it.
 fn left(
     solve: &Solve,
     system: &System,
@@ -97,12 +116,18 @@ fn left(
 ) -> Result<Settled, Unsettled> {
     let (rest, joints) = system.without(bar);
     let before_m: Vec<Vector> = joints.iter().filter_map(|k| before_m.get(*k).copied()).collect();
-    let (left, ..) = settle(solve, rest, &before_m).map_err(|mut why| {
+    let (left, rest, found) = settle(solve, rest, &before_m).map_err(|mut why| {
         if why.outcome == Outcome::Unknown {
             why.reason += " (members are counted without the lost one)";
         }
         why
     })?;
+    let is_known = before_m.len() == found.joints_m.len();
+    if is_known && rest.drawing().is_some() && is_overturned(&rest, &before_m, &found.joints_m) {
+        let Settled { moves, moves_m, .. } = left;
+        let reason = format!("joint {moves:?} comes to rest {moves_m:.3} m from where it was");
+        return Err(Unsettled { outcome: Outcome::Leaves, reason });
+    }
     Ok(left.numbered(|k| if k >= bar { k + 1 } else { k }))
 }
 

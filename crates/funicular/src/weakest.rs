@@ -34,6 +34,20 @@ pub struct Weakest {
     pub safety: f64,
     /// What it is required to be at least.
     pub safety_wanted: f64,
+    /// The largest force that is in the other sense than the strength of its member, which says nothing of it; not in JSON,
+    /// which has the forces and the utilisation of each bar.
+    #[serde(skip)]
+    pub unjudged: Option<Unjudged>,
+}
+
+/// A force that no strength is known for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Unjudged {
+    /// The member that bears it, from 0.
+    pub bar: usize,
+    /// The force, N: tension positive.
+    pub axial_n: f64,
 }
 
 /// The number of a bar as JSON has it.
@@ -47,7 +61,8 @@ impl Weakest {
     pub fn of(system: &System, found: &SystemEquilibrium) -> Option<Self> {
         let (bar, utilisation) = found.weakest(system)?;
         let safety_wanted = system.members()[bar].strength.as_deref()?.safety();
-        Some(Self { bar, utilisation, safety: utilisation.recip(), safety_wanted })
+        let unjudged = found.unjudged(system).map(|(bar, axial_n)| Unjudged { bar, axial_n });
+        Some(Self { bar, utilisation, safety: utilisation.recip(), safety_wanted, unjudged })
     }
 
     /// The safety wanted over the one that is there: above 1 it is too weak.

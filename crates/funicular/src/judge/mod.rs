@@ -9,7 +9,7 @@ use std::sync::Arc;
 use ::formats::answer::{Answer, Forces, Joints};
 use model::system::System;
 use validate::foreign::bounds::TOLERANCE;
-use validate::foreign::judge_foreign;
+use validate::foreign::{ForcesJudged, judge_foreign};
 
 pub use ::formats::answer::parse;
 pub use validate::foreign::{Finding, ForeignAnswer, GivenError, Judgement, Law, Violation};
@@ -120,10 +120,15 @@ impl Judged {
         &self.judgement
     }
 
-    /// The member that is nearest to breaking under the forces that were judged; `None` where no member
-    /// has a strength.
+    /// The member that is nearest to breaking under the forces that were judged, and of an answer without forces under
+    /// those of the nearest equilibrium if these are worse: within the tolerance of the places a stiff member may bear
+    /// far more than what balances best. `None` where no member has a strength.
     pub fn weakest(&self) -> Option<Weakest> {
-        Weakest::of(&self.system, &self.judgement.answer)
+        let Judgement { answer, forces, .. } = &self.judgement;
+        let nearest = self.judgement.nearest().filter(|_| *forces != ForcesJudged::Given);
+        let found = std::iter::once(answer).chain(nearest.map(|nearest| &nearest.equilibrium));
+        let weakest = found.filter_map(|found| Weakest::of(&self.system, found));
+        weakest.max_by(|a, b| a.demand().total_cmp(&b.demand()))
     }
 
     /// Whether all members are as strong as wanted under these forces; no value where none has a strength.

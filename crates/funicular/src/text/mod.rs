@@ -38,7 +38,9 @@ pub use answer::{answer, remarks};
 
 /// The member of a system that is nearest to breaking, in a sentence.
 pub(crate) fn weakest(system: &System, weakest: &crate::Weakest) -> String {
-    let member = &system.members()[weakest.bar];
-    let ends = [member.from, member.to].map(|joint| system.joints()[joint].name.to_string());
+    let ends = |bar: usize| {
+        let member = &system.members()[bar];
+        [member.from, member.to].map(|joint| system.joints()[joint].name.to_string())
+    };
     shape::weakest_of(weakest, &ends)
 }

@@ -10,7 +10,7 @@ use super::tables::{Table, numbers_from, short, table, wrapped};
 use crate::csv::Numbers;
 use crate::extremes::Extremes;
 use crate::sag::Sag;
-use crate::weakest::Weakest;
+use crate::weakest::{Unjudged, Weakest};
 
 /// Joints and bars up to this many are printed one by one; of more the extremes (`--csv`,
 /// `--bars-csv` and `--json` have all).
@@ -243,7 +243,7 @@ impl Shape<'_> {
             let _ = writeln!(text, "Largest {what}: {size}, in the member from {from} to {to}.");
         }
         if let Some(weakest) = self.weakest {
-            let ends = (self.ends)(weakest.bar).map(|joint| (self.name)(joint));
+            let ends = |bar| (self.ends)(bar).map(|joint| (self.name)(joint));
             text += &wrapped(&weakest_of(&weakest, &ends), 0);
             text.push('\n');
         }
@@ -251,9 +251,21 @@ impl Shape<'_> {
     }
 }
 
-/// The member that is nearest to breaking, by the names of its joints, in a sentence.
-pub fn weakest_of(weakest: &Weakest, [from, to]: &[String; 2]) -> String {
-    let Weakest { utilisation, safety, safety_wanted, .. } = *weakest;
+/// The member that is nearest to breaking, by the names of its joints, and what is not judged, in sentences.
+pub fn weakest_of(weakest: &Weakest, ends: &dyn Fn(usize) -> [String; 2]) -> String {
+    let Weakest { bar, utilisation, safety, safety_wanted, unjudged } = *weakest;
+    let not_judged = unjudged.map(|Unjudged { bar, axial_n }| {
+        let [from, to] = ends(bar);
+        let (borne, key) = match axial_n {
+            n if n < 0.0 => ("compression", "compression_n or bending_n_m2"),
+            _ => ("tension", "strength_n"),
+        };
+        let size = quantity(axial_n.abs(), "N");
+        format!(
+            "Not judged: {borne} of up to {size}, in the member from {from} to {to}, which has no {key}."
+        )
+    });
+    let [from, to] = ends(bar);
     let wanted = if weakest.suffices() {
         format!("{} required", short(safety_wanted))
     } else {
@@ -265,7 +277,10 @@ pub fn weakest_of(weakest: &Weakest, [from, to]: &[String; 2]) -> String {
         "whose force has no bound".to_owned()
     };
     let safety = three_digits(safety);
-    format!("Weakest: member from {from} to {to}, {used}: safety {safety}, {wanted}.")
+    let judged = (utilisation > 0.0 || unjudged.is_none()).then(|| {
+        format!("Weakest: member from {from} to {to}, {used}: safety {safety}, {wanted}.")
+    });
+    judged.into_iter().chain(not_judged).collect::<Vec<_>>().join(" ")
 }
 
 /// A safety in three digits, rounded down: 1.9999 is below 2.

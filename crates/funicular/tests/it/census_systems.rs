@@ -1,6 +1,5 @@
 //! `funicular census` of systems of joints and members: JSON, tables, drawings, columns, refusals.
 
-
 use serde_json::Value;
 
 use crate::census::{ROUNDING, funicular, json};

@@ -211,6 +211,34 @@ fn losses_are_survived_or_not() {
     assert!(!found.survives() && found.is_decided(), "{found}");
 }
 
+/// A mast of 10 m on three guys: without it the guys have one shape left, upside down, which no structure survives. A load
+/// that is drawn on two ropes hangs on the other one.
+#[test]
+fn what_hangs_upside_down_has_left_its_drawing() {
+    let losses = |text: &str| {
+        Solve::new().without_each(&Problem::parse(text, "system.toml").unwrap()).unwrap()
+    };
+    let guys = ["[6, 0, 0]", "[-3, 5, 0]", "[-3, -5, 0]"].map(|at| {
+        let rope = "kind = 'cable', stiffness_n = 1e6, mass_kg = 0";
+        format!("{{ from = 'top', to = '{at}', {rope} }}")
+    });
+    let anchors =
+        ["[6, 0, 0]", "[-3, 5, 0]", "[-3, -5, 0]"].map(|at| format!("'{at}' = {{ at_m = {at} }}"));
+    let mast = format!(
+        "joints = {{ foot = {{ at_m = [0, 0, 0] }}, top = {{ near_m = [0, 0, 10], mass_kg = 500 }}, {} }}\n\
+         bars = [{{ from = 'foot', to = 'top', mass_kg = 10 }}, {}]",
+        anchors.join(", "),
+        guys.join(", ")
+    );
+    let found = losses(&mast);
+    let outcome = |k: usize| found.losses()[k].left.as_ref().err().map(|why| why.outcome);
+    assert_eq!(outcome(0), Some(Outcome::Leaves), "{found}");
+    assert!(!found.survives());
+    let drawn = bridle("", "kind = 'cable'", "kind = 'cable'")
+        .replace("P = {", "P = { near_m = [0, 0, -3],");
+    assert!(losses(&drawn).survives());
+}
+
 /// What weighs may be lost itself: then nothing is left to fall.
 #[test]
 fn what_weighs_may_be_lost() {
@@ -254,6 +282,58 @@ fn the_program_loses_each_bar_in_turn() {
         assert!(said.contains("--without"), "{said}");
     }
     assert!(!folder.path().join("a.svg").exists());
+}
+
+/// A gable that is pushed by its load has strengths in tension alone: nothing judges it, and that is said. With one in compression
+/// it is judged.
+#[test]
+fn a_force_without_a_strength_is_named() {
+    let gable = |strength: &str| {
+        format!(
+            "gravity_m_s2 = 10\njoints = {{ A = {{ at_m = [-4, 0, 0] }}, B = {{ at_m = [4, 0, 0] }}, \
+             P = {{ near_m = [0, 0, 3], mass_kg = 30 }} }}\n\
+             bars = [{{ from = 'A', to = 'P', mass_kg = 0, {strength} }}, {{ from = 'B', to = 'P', mass_kg = 0 }}]"
+        )
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let said = |strength: &str| {
+        std::fs::write(folder.path().join("gable.toml"), gable(strength)).unwrap();
+        let (_, text, _) = run(&folder, &["solve", "gable.toml"]);
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let unjudged = "Not judged: compression of up to 250 N, in the member from A to P, which has no \
+                    compression_n or bending_n_m2.";
+    let text = said("strength_n = 1000");
+    assert!(text.contains(unjudged) && !text.contains("Weakest"), "{text}");
+    let text = said("compression_n = 1000");
+    assert!(
+        text.contains("Weakest: member from A to P, at 25 %") && !text.contains("Not judged"),
+        "{text}"
+    );
+}
+
+/// Places to six digits say little of the forces of stiff bars: those of the equilibrium next to them count, two crossed cables with
+/// the prestress of 200 N.
+#[test]
+fn an_answer_without_forces_is_as_strong_as_its_equilibrium() {
+    let text = "gravity_m_s2 = 10\nplane = 'xz'\n\
+        joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [3, 0, 0] }, C = { near_m = [3, 0, 4] }, D = { near_m = [0, 0, 4], mass_kg = 1 } }\n\
+        bars = [{ from = 'A', to = 'D', mass_kg = 0, stiffness_n = 1e9 }, { from = 'B', to = 'C', mass_kg = 0, stiffness_n = 1e9 },\n\
+        { from = 'D', to = 'C', mass_kg = 0, stiffness_n = 1e9 },\n\
+        { from = 'A', to = 'C', mass_kg = 0, kind = 'cable', stiffness_n = 1e9, prestress_n = 1000, strength_n = 100 },\n\
+        { from = 'B', to = 'D', mass_kg = 0, kind = 'cable', stiffness_n = 1e9, prestress_n = 1000, strength_n = 100 }]";
+    let problem = Problem::parse(text, "bay.toml").unwrap();
+    let solved = Solve::new().run(&problem).unwrap();
+    let wanted = Weakest::of(solved.system(), &solved.equilibria()[0]).unwrap();
+    let rows = solved.system().joints().iter().zip(&solved.equilibria()[0].joints_m);
+    let rows = rows.map(|(joint, [x, y, z])| format!("{},{x:.7},{y:.7},{z:.7}\n", joint.name));
+    let table = "joint,x_m,y_m,z_m\n".to_owned() + &rows.collect::<String>();
+    let answer = funicular::judge::parse(&table, "places.csv").unwrap();
+    let answer = funicular::judge::fit(&problem.system(), answer[0].clone()).unwrap();
+    let judged = Judge::new().run(&problem, &answer).unwrap();
+    let found = judged.weakest().unwrap();
+    assert!(wanted.utilisation > 1.0 && judged.judgement().is_confirmed());
+    assert!((found.utilisation / wanted.utilisation - 1.0).abs() < 1e-6, "{found:?} {wanted:?}");
 }
 
 /// Exit code 1 with `--check` alone, and where there is nothing to check a word about it.

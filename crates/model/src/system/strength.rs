@@ -81,6 +81,15 @@ impl Strength {
         part(most_n, self.tension_n).max(part(-least_n, self.compression_n)).max(0.0)
     }
 
+    /// The force, N, tension positive, for which no strength is known: the other sense of what is.
+    fn unknown_n(&self, least_n: f64, most_n: f64) -> f64 {
+        match (self.tension_n, self.compression_n) {
+            (Some(_), None) if -least_n > most_n.max(0.0) => least_n,
+            (None, Some(_)) if most_n > (-least_n).max(0.0) => most_n,
+            _ => 0.0,
+        }
+    }
+
     /// Whether a member that uses this part of its strength is as safe as wanted.
     pub fn suffices(&self, utilisation: f64) -> bool {
         utilisation * self.safety <= 1.0
@@ -132,6 +141,17 @@ impl SystemEquilibrium {
     pub fn utilisations(&self, system: &System) -> Option<Vec<Option<f64>>> {
         let all = || (0..system.members().len()).map(|member| self.utilisation(system, member));
         system.has_strengths().then(|| all().collect())
+    }
+
+    /// The member, from 0, with the largest axial force of those that are pressed and have a strength in tension alone, or
+    /// pulled and have one in compression alone, and this force, N, tension positive: nothing judges it.
+    pub fn unjudged(&self, system: &System) -> Option<(usize, f64)> {
+        let forces = system.members().iter().enumerate().filter_map(|(k, member)| {
+            let along = self.axial_force(system, k);
+            Some((k, member.strength.as_deref()?.unknown_n(along.least_n, along.most_n)))
+        });
+        let borne = forces.filter(|(_, force_n)| force_n.abs() > 0.0);
+        borne.reduce(|most, next| if next.1.abs() > most.1.abs() { next } else { most })
     }
 
     /// The member, from 0, that is nearest to the safety wanted, or furthest below it, with its
