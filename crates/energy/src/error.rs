@@ -21,7 +21,7 @@ pub enum Error {
     /// Occurs when a part of the system is free to move for ever along its load.
     #[error(
         "the part of the system with joint {joint} falls for ever: its supports leave it free to move along \
-         a force of {force_n} N"
+         a force of {} N", Brief(*force_n)
     )]
     Falls { joint: String, force_n: f64 },
     /// Occurs when a seed has not one direction (or angle) per bar.

@@ -100,11 +100,11 @@ fn print(
     } else {
         output::print(&format!("{}\n{text}", Printable(system.name())))?;
     }
-    if of.is_neighbour() {
-        return Ok(Exit::Done);
-    }
-    eprintln!(
-        "warning: the equilibrium is not the neighbour of the shape given: see `funicular solve`"
-    );
+    let what = match (of.is_neighbour(), of.equilibrium().stability.index_in_space) {
+        (true, 0) => return Ok(Exit::Done),
+        (true, _) => "unstable",
+        (false, _) => "not the neighbour of the shape given",
+    };
+    eprintln!("warning: the equilibrium is {what}: see `funicular solve`");
     Ok(Exit::Undecided)
 }

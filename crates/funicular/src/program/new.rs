@@ -66,6 +66,7 @@ fn write_new(path: &Path, text: &str) -> Result<()> {
         let report = format!("{name} exists already and is not overwritten");
         return Err(Failure::bad_input(report));
     }
+    output::check([&path.to_path_buf()], &[])?;
     output::write_whole(path, text)?;
     output::print(&format!("{name} is written; `funicular solve {name}` solves it\n"))
 }

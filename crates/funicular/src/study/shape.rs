@@ -125,11 +125,13 @@ impl StudyShape {
         let first = answer.equilibria().first();
         if let (Some(near), Some(first)) = (answer.near(), first) {
             if !near.is_neighbour {
-                return Err(NoShape::unsolved(&format!(
-                    "the branch ends here, or the steps are too long: joint {:?} of what was found is {} m away",
-                    near.joint,
-                    Brief(near.moved_m)
-                )));
+                let what = match before {
+                    Some(_) => "the branch ends here, or the steps are too long",
+                    None => "it does not rest next to its drawing",
+                };
+                let (joint, away) = (&near.joint, Brief(near.moved_m));
+                let why = format!("{what}: joint {joint:?} of what was found is {away} m away");
+                return Err(NoShape::unsolved(&why));
             }
             *before = Some(first.joints_m.clone());
         }

@@ -50,23 +50,38 @@ impl LoadCasesAnswer {
         let strong = self.system().has_strengths();
         let mut head = vec!["bar", "from", "to", "least / N", "case", "most / N", "case"];
         head.extend(strong.then_some(["used", "case"]).into_iter().flatten());
-        let mut rows = table(head);
-        let case = |of: &Governing| Printable(&of.case).to_string();
         let shown = most(self.bars(), severity);
-        for bar in &shown {
-            let mut row = vec![(bar.bar + 1).to_string()];
-            row.extend(bar.ends.iter().map(|end| Printable(end).to_string()));
-            for of in [&bar.least_n, &bar.most_n] {
-                row.extend([short(of.value), case(of)]);
+        let all = |case: &dyn Fn(&Governing) -> String| {
+            let mut rows = table(head.iter().copied());
+            for bar in &shown {
+                let mut row = vec![(bar.bar + 1).to_string()];
+                row.extend(bar.ends.iter().map(|end| Printable(end).to_string()));
+                for of in [&bar.least_n, &bar.most_n] {
+                    row.extend([short(of.value), case(of)]);
+                }
+                let used = bar.utilisation.as_ref();
+                row.extend(used.into_iter().flat_map(|of| [percent(of.value), case(of)]));
+                row.resize(head.len(), String::new());
+                rows.add_row(row);
             }
-            let used = bar.utilisation.as_ref();
-            row.extend(used.into_iter().flat_map(|of| [percent(of.value), case(of)]));
-            row.resize(if strong { 9 } else { 7 }, String::new());
-            rows.add_row(row);
+            numbers_from(&mut rows, 3);
+            rows
+        };
+        let case = |of: &Governing| Printable(&of.case).to_string();
+        let mut rows = all(&case);
+        let names = || self.cases().iter().map(|case| &case.name);
+        let number = |of: &Governing| names().take_while(|name| **name != of.case).count() + 1;
+        let are_numbered = !rows.fits();
+        if are_numbered {
+            rows = all(&|of| number(of).to_string());
         }
-        numbers_from(&mut rows, 3);
         writeln!(f, "Bars over all cases: axial force, tension positive\n{rows}")?;
         left_out(f, shown.len(), self.bars().len())?;
+        if are_numbered {
+            let named = (1..).zip(names()).map(|(k, name)| format!("{k} {}", Printable(name)));
+            let named = named.collect::<Vec<_>>().join(", ");
+            writeln!(f, "{}", wrapped(&format!("Cases: {named}."), 2))?;
+        }
         let mut rows = table(["support", "most / N", "case"]);
         let shown = most(self.supports(), |support| support.most_n.value);
         for support in &shown {

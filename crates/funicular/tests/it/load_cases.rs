@@ -199,6 +199,12 @@ fn every_command_takes_a_load_case() {
     let worst = "Worst: in gale the member from A to P is at 83.3 % of its strength.\n";
     assert!(text.ends_with(worst), "{text}");
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    // Names that do not fit beside the numbers stand below them.
+    let long = POLE.replace("\"gale\"", "\"a gale from the north-west\"");
+    std::fs::write(folder.path().join("long.toml"), long).unwrap();
+    let text = good(&folder, &["solve", "long.toml", "--load-case", "each"]);
+    assert!(text.contains("a gale from the north-west") && text.contains("\nCases: 1 "), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     let checked = |case| run(&folder, &["solve", "pole.toml", "--load-case", case, "--check"]).0;
     assert_eq!([checked("each"), checked("storm"), checked("gale")], [Some(1), Some(0), Some(1)]);
     // The pendulum by 125 N on 10 kg and 2 m: omega^2 = 6.25 1/s^2, in both directions.

@@ -193,8 +193,8 @@ pub enum SystemFileErrorKind {
     /// Occurs when a system by name, with its names, needs more memory than there is.
     #[error("{0}")]
     Memory(OutOfMemory),
-    /// Occurs when a bars file has a header and no rows.
-    #[error("there are columns but no bars")]
+    /// Occurs when a file of columns has a header and no rows.
+    #[error("there are columns but no rows")]
     NoRows,
     /// Occurs when this stands between the columns of a bars file, and not a comma.
     #[error("columns are separated by commas, found {0:?}")]
@@ -303,7 +303,9 @@ impl SystemFileErrorKind {
             }
             Self::DuplicateKey { .. } => "a key is given once; every bar starts with [[bars]]",
             Self::DuplicateColumn(_) => "a column is given once; keep one of them",
-            Self::NoRows => "every line after the header is a bar, such as 0.25,1e-3",
+            Self::NoRows => {
+                "every line after the header is a row: a bar of a file of bars, a joint of one of joints"
+            }
             Self::WrongType { found: "a string", wanted } if wanted.contains("number") => {
                 "numbers are written without quotes"
             }

@@ -102,7 +102,7 @@ impl<'a> Table<'a> {
         let found = match value.get_ref() {
             DeValue::String(_) => "a string",
             DeValue::Integer(_) => "an integer",
-            DeValue::Float(_) => "a number with a fraction",
+            DeValue::Float(_) => "a number with a decimal point",
             DeValue::Boolean(_) => "a boolean",
             DeValue::Datetime(_) => "a date or time",
             DeValue::Array(_) => "an array",

@@ -61,7 +61,7 @@ fn help_is_about_columns_and_rows() {
     let help = |text: &str| bars(text, 1.0).unwrap_err().help().unwrap();
     assert_eq!(
         help("length_m,mass_kg\n"),
-        "every line after the header is a bar, such as 0.25,1e-3"
+        "every line after the header is a row: a bar of a file of bars, a joint of one of joints"
     );
     assert_eq!(
         help("length_m,mass_kg,mass_kg\n1,1,1\n"),
@@ -91,7 +91,7 @@ fn rows_that_are_wrong() {
         "b:3:1: length_m: a moment of inertia must be zero or positive, and finite, got inf kg m^2",
         "1e200",
     );
-    check("length_m,mass_kg\n", "b:1:1: there are columns but no bars", "length_m,mass_kg");
+    check("length_m,mass_kg\n", "b:1:1: there are columns but no rows", "length_m,mass_kg");
 }
 
 #[test]

@@ -163,6 +163,9 @@ fn line_types(sections: &Sections<'_>, options: &Options) -> Result<HashMap<Stri
     for row in sections.need(Section::LineTypes)?.rows(TYPE_COLUMNS)? {
         let name = row.text("name")?.to_owned();
         let (diameter_m, mass_kg_m) = (row.positive("diameter")?, row.number("mass")?);
+        if mass_kg_m < 0.0 {
+            return Err(row.at().value("mass", "positive or zero", row.text("mass")?));
+        }
         let stiffness = row.text("EA")?;
         if stiffness.parse::<f64>().is_err() {
             let what = format!("the stiffness {stiffness:?}, which is not a constant,");
