@@ -33,7 +33,7 @@ pub(super) fn write(shape: &Shape<'_>) -> String {
     let least_kg = least_masses(shape);
     let size_m = extent(shape.joints_m);
     let mut text = format!(
-        "<!-- Statics: masses at the joints by the lever rule. -->\n<mujoco model=\"{}\">\n\
+        "<!-- Statics: masses at the joints by the lever rule, light ones heavier without weight (gravcomp): no dynamics. -->\n<mujoco model=\"{}\">\n\
          <option gravity=\"0 0 {:?}\" timestep=\"{STEP_S:?}\" iterations=\"200\" tolerance=\"1e-14\">\n\
          <flag refsafe=\"enable\"/>\n</option>\n<worldbody>\n",
         attribute(shape.system.name()),

@@ -23,6 +23,7 @@ mod obj;
 mod opensees;
 
 use model::Vector;
+use model::number::Brief;
 use model::system::System;
 use numerics::vector::{norm, plus};
 
@@ -124,7 +125,13 @@ impl Source {
                 let system = drawn.map_err(|error| At::file(file).no_system(error))?;
                 let note = "each edge is an elastic member that carries its force density times its length at the places \
                             of the file";
-                let notes = std::iter::once(note.to_owned()).chain(net.held_loads()).collect();
+                let pushes = net.edges.iter().any(|edge| edge.density_n_m < 0.0).then(|| {
+                    "some edges push: whether they stand depends on stiffnesses that the file does not have, and here each \
+                     is as soft as its force; `judge` asks whether the places are in balance"
+                        .to_owned()
+                });
+                let notes = [Some(note.to_owned()), pushes, net.held_loads()];
+                let notes = notes.into_iter().flatten().collect();
                 ForeignSystem { system, notes, floor_m: None }
             }
         };
@@ -175,7 +182,7 @@ fn held_loads(loads_n: impl Iterator<Item = Vector>) -> Option<String> {
         count += 1;
         sum_n = plus(sum_n, load_n);
     }
-    let [x, y, z] = sum_n;
+    let [x, y, z] = sum_n.map(Brief);
     let says = || {
         format!(
             "loads on held nodes ({count}), in sum ({x}, {y}, {z}) N, go to the ground and are not in the reactions"

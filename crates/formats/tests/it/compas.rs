@@ -36,6 +36,13 @@ fn loads_on_supports_are_told_with_their_sum() {
     assert!(read.notes.iter().any(|note| note == says), "{:?}", read.notes);
 }
 
+#[test]
+fn edges_that_push_are_said_to_be_soft() {
+    let notes = |text: &str| Source::Compas.parse(text, "x").unwrap().notes.concat();
+    assert!(!notes(NETWORK).contains("some edges push"));
+    assert!(notes(&NETWORK.replace(r#""q": 2.5"#, r#""q": -2.5"#)).contains("some edges push"));
+}
+
 /// As the corners of a grid, which the net does not reach: no equilibrium problem would have them.
 #[test]
 fn supports_that_no_member_meets_are_left_out_and_named() {
