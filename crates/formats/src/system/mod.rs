@@ -23,7 +23,6 @@ mod obj;
 mod opensees;
 
 use model::Vector;
-use model::number::Brief;
 use model::system::System;
 use numerics::vector::{norm, plus};
 
@@ -182,7 +181,8 @@ fn held_loads(loads_n: impl Iterator<Item = Vector>) -> Option<String> {
         count += 1;
         sum_n = plus(sum_n, load_n);
     }
-    let [x, y, z] = sum_n.map(Brief);
+    // To millionths, without the rounding of the sum.
+    let [x, y, z] = sum_n.map(|n| (1e6 * n).round() / 1e6);
     let says = || {
         format!(
             "loads on held nodes ({count}), in sum ({x}, {y}, {z}) N, go to the ground and are not in the reactions"
