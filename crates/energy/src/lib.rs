@@ -59,7 +59,6 @@
 //! |---|---|---|---|---|
 //! | slack | neither of those below | directions on the closed chains, 2 n - 3; axes level and upright | a saddle is left along its lowest mode; bars that carry next to nothing: Newton's method with the weights counted from the least loaded bar (`refine`) | converged; minimum, with its indices |
 //! | drawn out | $s < L/4$ and $s < \lvert D\rvert$ | the same, with an axis along D | the same | the same; how uncertain the forces are, if above 1e-9; refused as `NearlyFolded` where what decides is lost |
-//! | triangle | two bars, $\lvert D\rvert \le 10^{-3} L$ | the turn about the line through the anchors: the shape is that of a triangle to twice the digits (`triangle`) | none is needed | converged, with no uncertainty of the forces |
 //!
 //! | `Turning` | test | what is done | what the evidence says |
 //! |---|---|---|---|

@@ -62,14 +62,6 @@ impl Frame {
         [[across, 0.0, up], [0.0; 3]]
     }
 
-    /// The way between the anchors in a frame whose first axis is level, towards the end anchor, to
-    /// twice the digits as well.
-    pub(crate) fn level_span([x, y, z]: Vector) -> [Vector; 2] {
-        let [x, y] = [x, y].map(Twofold::from);
-        let [across, rest] = (x * x + y * y).sqrt().parts();
-        [[across, 0.0, z], [rest, 0.0, 0.0]]
-    }
-
     /// The frame with these axes, given in this one.
     pub(crate) fn turned(&self, axes: [Vector; 3]) -> Self {
         Self { axis: axes.map(|axis| self.into_world(axis)), ..*self }

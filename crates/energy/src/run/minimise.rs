@@ -169,9 +169,6 @@ fn descend_to_line(
     settings: &Settings,
 ) -> Result<Minimum, Error> {
     let links = Arc::new(links);
-    if let Some(minimum) = Minimum::of_triangle(&links, &start) {
-        return Ok(minimum);
-    }
     let moments = links.measure(&start);
     let closed = links.close(Shape { u: start, moments }, SEED_CORRECTIONS).map_err(
         |(gap, iterations)| Error::SeedNotClosed { gap: gap / links.total(), iterations },

@@ -21,7 +21,6 @@ mod stability;
 mod start;
 mod straight_fold;
 mod symmetric;
-mod triangle;
 mod vertical_plane;
 
 #[cfg(test)]

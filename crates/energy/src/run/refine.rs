@@ -58,9 +58,6 @@ pub(crate) fn refine(
     minimum: Minimum,
     settings: &Settings,
 ) -> Result<(Minimum, Units, Option<f64>), Error> {
-    if let Some((exact, units)) = of_triangle(problem, &units, &minimum) {
-        return Ok((exact, units, Some(0.0)));
-    }
     let Minimum { slope, unsettled, .. } = &minimum;
     // Bars without any load have no direction of their own.
     let light = slope.across / slope.softest > WORTH_REFINING;
@@ -90,16 +87,6 @@ pub(crate) fn refine(
     // doubles tell, and the answer is one of them.
     let unknown_rad = (slope.softest > FORCE_ROUNDING * slope.pull).then_some(first);
     Ok((minimum.settled()?, units, unknown_rad))
-}
-
-/// Two bars over near anchors with their weights counted from the first: what hangs between them is
-/// one number then, and no difference.
-fn of_triangle(problem: &Problem, units: &Units, minimum: &Minimum) -> Option<(Minimum, Units)> {
-    let old = &minimum.links;
-    let links = ScaledChain { carried: counted_from(problem, 0), ..(**old).clone() };
-    let exact = Minimum::of_triangle(&Arc::new(links), &minimum.shape.u)?;
-    let origin = Some(Origin { bar: 0, carried: old.carried[0] });
-    Some((exact, Units { origin, ..*units }))
 }
 
 /// A point of the unknowns: directions in the plane, and the multiplier.

@@ -7,7 +7,7 @@
 
 use crate::run::scaled_chain::ScaledChain;
 use crate::run::settings::Motion;
-use crate::vector::{dot, norm};
+use crate::vector::dot;
 
 /// How much length a chain can spare before its bars lie on one line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,8 +17,6 @@ pub(crate) enum Reach {
     /// Little, before it is taut or its longest bar folds on the others along the span: an axis of
     /// the frame lies along the span, where squares of small angles keep their digits.
     DrawnOut,
-    /// Two bars over anchors that are next to each other: a triangle, known in closed form.
-    Triangle,
 }
 
 /// What holds the vertical plane of a chain.
@@ -37,30 +35,16 @@ pub(crate) enum Turning {
 /// Parts of the total length to spare below which a chain is drawn out along its span.
 const DRAWN_OUT: f64 = 0.25;
 
-/// Parts of the total length between the anchors of two bars up to which they are taken as a
-/// triangle: bars folded back to an angle `a` leave a minimiser the digits of `a²`, and below this
-/// those are fewer than ten.
-const NEAR_ANCHORS: f64 = 1e-3;
-
 /// Level distance of the anchors, in units of the length (a part between 1 and 1/2 of the total),
 /// below which the turn of the whole chain is soft: steps along straight lines distort it more than
 /// they win.
 const NEARLY_VERTICAL: f64 = 0.01;
 
 impl Reach {
-    /// That of a chain in its own units.
-    pub(crate) fn of_links(links: &ScaledChain) -> Self {
-        let longest = links.length.iter().fold(0.0_f64, |most, l| most.max(*l));
-        Self::of(links.bars(), links.total(), norm(links.span[0]), longest)
-    }
-
-    /// From the number of bars, the total length, the span and the longest bar, in any one unit.
-    pub(crate) fn of(bars: usize, total: f64, span: f64, longest: f64) -> Self {
+    /// From the total length, the span and the longest bar, in any one unit.
+    pub(crate) fn of(total: f64, span: f64, longest: f64) -> Self {
         let (taut, folded) = (total - span, total + span - 2.0 * longest);
         let spare = taut.min(folded);
-        if bars == 2 && span <= NEAR_ANCHORS * total {
-            return Self::Triangle;
-        }
         if spare < DRAWN_OUT * total && spare < span { Self::DrawnOut } else { Self::Slack }
     }
 }
@@ -87,24 +71,18 @@ mod tests {
 
     #[test]
     fn the_reach_by_what_can_be_spared() {
-        // Bars, total, span, longest.
-        for (bars, total, span, longest, expected) in [
-            (3, 3.0, 2.0, 1.0, Reach::Slack),
-            (3, 3.0, 2.9, 1.0, Reach::DrawnOut),
-            (3, 3.0, 1.0, 1.8, Reach::DrawnOut),
-            (3, 3.0, 1.0, 1.99, Reach::DrawnOut),
-            (3, 2.0, 1.0 / 64.0, 1.0, Reach::Slack),
-            // Two bars are a triangle: nothing is left to close.
-            (2, 3.0, 1.0, 1.99, Reach::DrawnOut),
-            (2, 2.0, 1.0 / 256.0, 1.0, Reach::Slack),
-            (2, 2.0, 1.0 / 256.0, 1.0 + 1e-3, Reach::DrawnOut),
-            // Next to each other, their anchors say little of the line on which they fold.
-            (2, 2.0, 1e-6, 1.0, Reach::Triangle),
-            (2, 2.0, 1e-6, 1.0 + 4e-7, Reach::Triangle),
+        // Total, span, longest.
+        for (total, span, longest, expected) in [
+            (3.0, 2.0, 1.0, Reach::Slack),
+            (3.0, 2.9, 1.0, Reach::DrawnOut),
+            (3.0, 1.0, 1.8, Reach::DrawnOut),
+            (3.0, 1.0, 1.99, Reach::DrawnOut),
+            (2.0, 1.0 / 64.0, 1.0, Reach::Slack),
+            (2.0, 1.0 / 256.0, 1.0 + 1e-3, Reach::DrawnOut),
             // Anchors at one point.
-            (6, 3.0, 0.0, 0.5, Reach::Slack),
+            (3.0, 0.0, 0.5, Reach::Slack),
         ] {
-            assert_eq!(Reach::of(bars, total, span, longest), expected, "{bars} {span} {longest}");
+            assert_eq!(Reach::of(total, span, longest), expected, "{span} {longest}");
         }
     }
 

@@ -79,7 +79,7 @@ impl ScaledChain {
         let bars = chain.bars();
         let span_m = chain.anchors().span_m();
         let longest_m = bars.iter().fold(0.0_f64, |m, bar| m.max(bar.length_m()));
-        let reach = Reach::of(bars.len(), total_m, span_m, longest_m);
+        let reach = Reach::of(total_m, span_m, longest_m);
         let frame = Frame::new(chain, reach);
         let length = bars.iter().map(|bar| bar.length_m() / length_m).collect();
         // Twice h_i: what hangs after bar i less what hangs before it.
@@ -98,11 +98,7 @@ impl ScaledChain {
         }
         let difference = difference_m.map(|x| x / length_m);
         let vertical = chain.anchors_on_one_vertical();
-        let span = if reach == Reach::Triangle && !vertical {
-            Frame::level_span(difference)
-        } else {
-            frame.span(difference)
-        };
+        let span = frame.span(difference);
         let mut up = frame.into_frame(WORLD_UP);
         // Zero by the choice of the frame; rounding must not push a plane chain out of its plane.
         up[1] = 0.0;

@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use model::{InPlane, InSpace, Problem, Stability};
+use model::{Problem, Stability};
 
 use crate::error::Error;
 use crate::run::closure::Shape;
@@ -9,7 +9,6 @@ use crate::run::scaled_chain::ScaledChain;
 use crate::run::seed::Seed;
 use crate::run::settings::Motion;
 use crate::run::slope::Slope;
-use crate::run::triangle::Triangle;
 use crate::run::vertical_plane::Turn;
 use crate::vector::norm;
 
@@ -58,10 +57,7 @@ pub fn second_order(problem: &Problem, directions: &Seed) -> Result<SecondOrder,
     let u = directions.in_frame(&links, &units)?;
     let moments = links.measure(&u);
     let shape = Shape { u, moments };
-    let slope = match Triangle::near(&links, &shape.u) {
-        Some(triangle) => triangle.slope(&links, &shape.u),
-        None => Slope::new(&links, &shape),
-    };
+    let slope = Slope::new(&links, &shape);
     if !slope.mean.is_finite() {
         return Err(Error::NotFinite { quantity: "projected gradient" });
     }
@@ -73,9 +69,6 @@ pub fn second_order(problem: &Problem, directions: &Seed) -> Result<SecondOrder,
 impl SecondOrder {
     pub(crate) fn new(place: &Curvature) -> Self {
         let links = &place.links;
-        if let Some(triangle) = Triangle::near(links, &place.shape.u) {
-            return Self::of_triangle(place, triangle.curvature);
-        }
         let space = if links.motion == Motion::Space {
             place.clone()
         } else {
@@ -103,25 +96,6 @@ impl SecondOrder {
             condition: space.condition(zero),
             residual: place.slope.residual(),
             gap: norm(place.shape.moments.gap) / links.total(),
-        }
-    }
-
-    /// Of two bars over near anchors, which move in one way: they turn about the line through the
-    /// anchors, with this second derivative.
-    fn of_triangle(place: &Curvature, curvature: f64) -> Self {
-        let flat = curvature.abs() <= 0.0;
-        let index_in_space = usize::from(curvature < 0.0);
-        Self {
-            stability: Stability {
-                in_plane: InPlane::Minimum,
-                index_in_plane: 0,
-                in_space: if index_in_space == 0 { InSpace::Stable } else { InSpace::Unstable },
-                index_in_space,
-            },
-            nullity: usize::from(flat),
-            condition: if flat { 1.0 } else { place.slope.highest / curvature.abs() },
-            residual: place.slope.residual(),
-            gap: norm(place.shape.moments.gap) / place.links.total(),
         }
     }
 }
