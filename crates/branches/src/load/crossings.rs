@@ -15,7 +15,7 @@ use nalgebra::DVector;
 use super::bordered::Row;
 use super::here::{Here, Metric, Space, correct};
 use super::singular::ITERATIONS;
-use super::{End, Equations, LoadPath, NoPath, Parent, Settings};
+use super::{Equations, LoadPath, NoPath, Parent, Settings};
 use crate::load::walk::{Walk, begin};
 
 /// How far from a branch point a path is picked up, in units of the length of the path: further away
@@ -125,19 +125,24 @@ impl<Q: Equations> Space<'_, Q> {
     fn first(&mut self, at: &Here, direction: &DVector<f64>) -> Option<Here> {
         let metric = self.metric;
         let row = metric.along(&Row { y: direction.clone(), t: 0.0 });
+        let known = metric.along(&metric.unit(at.tangent.y.clone(), at.tangent.t));
+        // The parameter counts by its way from the start, however wide the range is.
+        let unit =
+            Some(at.t.abs()).filter(|way| (f64::MIN_POSITIVE..1.0).contains(way)).unwrap_or(1.0);
         for away in AWAY {
             for beside in BESIDE {
-                let guess = (&at.y + direction * away, at.t + beside * away);
+                let guess = (&at.y + direction * away, at.t + beside * away * unit);
                 let found = correct(self.equations, (&guess.0, guess.1), &row);
                 let Ok(Ok(found)) = found else { continue };
                 // Straight on is the path that is known.
                 let new = Row { y: &found.0 - &at.y, t: found.1 - at.t };
-                let far = metric.norm(&new.y, new.t);
-                let along = metric.along(&at.tangent).dot(&new.y, new.t).abs();
-                if far > FARTHEST * away || along > ALIKE * far {
+                let far = metric.norm(&new.y, new.t / unit);
+                let along = known.dot(&new.y, new.t).abs();
+                if far > FARTHEST * away || along > ALIKE * metric.norm(&new.y, new.t) {
                     continue;
                 }
-                if let Ok(Some(here)) = self.here(found, [&row, &row]) {
+                let here = self.here(found, [&row, &row]).ok().flatten();
+                if let Some(here) = here.filter(|here| self.is_exact(here).unwrap_or(false)) {
                     return Some(here);
                 }
             }
@@ -161,13 +166,13 @@ fn directions(basis: &[DVector<f64>]) -> Vec<DVector<f64>> {
     all
 }
 
-/// Whether a path ends in a branch point that is known, and how; `number` and `point` are its own.
-pub(super) fn joins<E, S>(
+/// The known branch point in which a path ends, if it does; `number` and `point` are its own.
+pub(super) fn joins<'a, S>(
     metric: Metric,
-    crossings: &mut [Crossing<S>],
+    crossings: &'a mut [Crossing<S>],
     [before, at, after]: [&Here; 3],
     (number, point): (usize, usize),
-) -> Option<End<E>> {
+) -> Option<&'a Crossing<S>> {
     // It may have several of its own one after another, but does not turn round at once.
     let new = |crossing: &Crossing<S>| crossing.of.path == number && point < crossing.point + ROUND;
     let metric = metric.coarse();
@@ -179,7 +184,7 @@ pub(super) fn joins<E, S>(
         return None;
     }
     known.known.push(metric.towards(at, before));
-    Some(End::Joins(known.of))
+    Some(known)
 }
 
 #[cfg(test)]

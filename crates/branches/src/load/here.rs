@@ -8,6 +8,9 @@ use super::bordered::{Bordered, Row};
 /// Newton's method ends at this size of the residual, or where it falls no further, below the other.
 const TIGHT: f64 = 1e-14;
 const LOOSE: f64 = 1e-9;
+/// A point at which more is left of the equations is not given, thirty times their rounding: next to a singular one the corrector
+/// stalls, and the judge of statics, in units up to ten times as fine, allows 1e-11.
+const GIVEN: f64 = 3e-13;
 /// Iterations of the corrector; from a fair prediction it takes three.
 const ITERATIONS: usize = 12;
 /// A residual that has not fallen to this part in an iteration is at rounding, or the corrector
@@ -35,8 +38,8 @@ pub(super) struct Metric {
     pub(super) square: f64,
 }
 
-/// Places whose change is less than this, in units of length, count as if it were this where paths
-/// branch off.
+/// A change of places by so much, in units of length, counts as much as the whole range of the parameter where paths branch
+/// off.
 const LARGE: f64 = 0.05;
 
 /// The equations, and what measures a way along their paths.
@@ -46,9 +49,10 @@ pub(super) struct Space<'a, Q> {
 }
 
 impl Metric {
-    /// In which small changes of places do not count for more than large ones of the parameter.
+    /// In which places count by the size of the structure, however far the first path moves them: small changes do not count
+    /// for more than large ones of the parameter, and no wide range makes large ones small.
     pub(super) fn coarse(self) -> Self {
-        Self { square: self.square.min(LARGE.powi(-2)), ..self }
+        Self { square: LARGE.powi(-2), ..self }
     }
 
     pub(super) fn norm(&self, y: &DVector<f64>, t: f64) -> f64 {
@@ -154,6 +158,11 @@ fn polished<Q: Equations>(
 }
 
 impl<Q: Equations> Space<'_, Q> {
+    /// Whether a point is as much of an equilibrium as points of paths are to be.
+    pub(super) fn is_exact(&mut self, at: &Here) -> Result<bool, Q::Error> {
+        Ok(self.equations.residual(&at.y, at.t)?.1 <= GIVEN)
+    }
+
     /// A point, corrected across the first row, with its tangent, of which the second says the direction;
     /// `None` when it has none.
     pub(super) fn here(

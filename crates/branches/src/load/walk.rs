@@ -177,7 +177,9 @@ impl<'a, Q: Equations> Walk<'a, Q> {
                 (here, length) = (after, FIRST.min(long));
                 continue;
             }
-            self.keep(&next, None)?;
+            if self.space.is_exact(&next)? {
+                self.keep(&next, None)?;
+            }
             if lands {
                 return Ok(End::Range);
             }
@@ -269,9 +271,23 @@ impl<'a, Q: Equations> Walk<'a, Q> {
     fn smooth(&mut self, a: &Here, b: &Here) -> Result<Passed<Q::Error>, Q::Error> {
         let Some(all) = self.space.smooth(a, b) else { return Ok(Passed::Gap) };
         for found in all {
-            let Singular { at, kind, index, turns, mode, load_on_mode } = found;
+            let Singular { mut at, kind, index, turns, mode, load_on_mode } = found;
             if self.bursts([a, &at, b]) {
                 return Ok(Passed::End(End::Unbounded));
+            }
+            let mut end = None;
+            if kind == Kind::Branch {
+                let here = (self.paths, self.points.len() + 1);
+                let known = joins(self.space.metric, &mut self.crossings, [a, &at, b], here);
+                // That point is known better than it is seen from here, where several directions are singular at once.
+                if let Some(Crossing { at: known, of, .. }) = known {
+                    (at.y, at.t) = (known.y.clone(), known.t);
+                    end = Some(End::Joins(*of));
+                }
+            }
+            // Where several singular points are one but for rounding none of them is known well enough.
+            if !self.space.is_exact(&at)? {
+                return Ok(Passed::End(End::Lost));
             }
             let event = Event {
                 kind,
@@ -287,12 +303,10 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             let tangent = self.space.metric.towards(a, b);
             let at = Here { index: index[0], tangent, ..at };
             self.keep(&at, Some(event))?;
+            if let Some(end) = end {
+                return Ok(Passed::End(end));
+            }
             if kind == Kind::Branch {
-                let here = (self.paths, self.points.len());
-                let end = joins(self.space.metric, &mut self.crossings, [a, &at, b], here);
-                if let Some(end) = end {
-                    return Ok(Passed::End(end));
-                }
                 self.crossings.push(Crossing {
                     at,
                     of: Parent { path: self.paths, event: self.events.len() - 1 },

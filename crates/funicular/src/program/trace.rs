@@ -56,7 +56,7 @@ How far a system can be loaded: over a range alone, or of what is no row of rigi
 the equilibrium next to the drawing (near_m of the file, --near; else the hanging one) at the first value on,
 through limit points and branch points, stable or not, until it leaves the range of the values:
   --vary loads=0..1.2        all forces and weights times a factor
-  --vary loads=0,1.2,-1      from 0 to 1.2 first, and back to -1
+  --vary loads=0,1.2,-1      from 0 towards 1.2, until the path leaves the range from -1 to 1.2
   --vary lengths=1..1.001    all bars times a factor, as when they are heated
   --vary joints.P.force_n.z=0..-50          --vary bars.3.length_m=1..0.9
 Located are limit points (the load turns), branch points, cables and struts that become slack or taut, joints
