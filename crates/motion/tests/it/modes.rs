@@ -353,7 +353,7 @@ fn what_rounding_alone_resists_is_neutral() {
     let rope = Member::cable(0, 1, body).with_stiffness(1e4);
     let system = System::new("a weight at rest", 10.0, joints, vec![rope]).unwrap();
     let at = [[0.0; 3], [0.0, 0.0, -3.0 - 1e-15]];
-    let found = motion::modes(&system, &at, None).unwrap();
+    let found = modes(&system, &at, None).unwrap();
     let all: Vec<_> = found.modes.iter().map(|mode| mode.what).collect();
     assert_eq!(all, [What::Neutral; 2], "{:?}", found.modes);
 }
