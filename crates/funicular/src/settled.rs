@@ -150,6 +150,9 @@ impl Settled {
         }
         if let Some(weakest) = &mut self.weakest {
             weakest.bar = number(weakest.bar);
+            if let Some(unjudged) = &mut weakest.unjudged {
+                unjudged.bar = number(unjudged.bar);
+            }
         }
         self
     }
