@@ -60,9 +60,9 @@ pub enum LoadError {
     Start(f64),
     /// Occurs when the equilibrium at the start is singular, as in a limit point.
     #[error(
-        "the start of the path is singular: a limit point; or cables and bars without load that do not resist a motion across \
-         them (begin with a little: --vary loads=0.01..1); or a part that turns freely, which a joint of it that slides in a \
-         plane (`normal`) holds"
+        "the start of the path is singular: it is a limit point; or cables and bars without load do not resist a motion across \
+         them (begin with a little: --vary loads=0.01..1); or a part turns freely: a joint of it that slides in a plane \
+         (`normal`) holds it"
     )]
     Singular,
     /// Occurs where two joints of a rope run together.
