@@ -5,10 +5,9 @@
 //!
 //! $$ G(y', t') = 0, \qquad \phi \cdot (y' - y) = \delta $$
 //!
-//! has a solution next to $(y + \delta \phi, t)$. With one mode $\pm \phi$ are all directions; with
-//! more of them so many are tried, and there may be others.
-
-use std::f64::consts::TAU;
+//! has a solution next to $(y + \delta \phi, t)$. With one mode $\pm \phi$ are all directions; with two
+//! of them all on a circle are looked at ([`circle`](super::circle)), with more the circles in the planes of each two of a basis, and there
+//! may be others.
 
 use nalgebra::DVector;
 
@@ -33,8 +32,6 @@ const SAME: f64 = 1e-3;
 const ROUND: usize = 8;
 /// Cosine of two directions that are one.
 const ALIKE: f64 = 0.97;
-/// Directions in a null space of two dimensions, and of more between each two of a basis.
-const AROUND: usize = 12;
 /// Most paths together: beyond them no other is begun.
 pub const MOST_PATHS: usize = 64;
 
@@ -110,8 +107,21 @@ impl<Q: Equations> Space<'_, Q> {
     /// First points of other paths through a branch point, outward.
     fn starts(&mut self, crossing: &Crossing<Q::Side>) -> Vec<Here> {
         let mut found: Vec<(Here, Row)> = vec![];
-        for direction in directions(&self.null_space(&crossing.at, crossing.modes, ITERATIONS)) {
-            let Some(first) = self.first(&crossing.at, &direction) else { continue };
+        let basis = self.null_space(&crossing.at, crossing.modes, ITERATIONS);
+        let mut all = vec![];
+        if let [mode] = &basis[..] {
+            all.extend(
+                [1.0, -1.0].iter().filter_map(|side| self.first(&crossing.at, &(mode * *side))),
+            );
+        }
+        for (k, one) in basis.iter().enumerate() {
+            for other in &basis[..k] {
+                let circles =
+                    AWAY.iter().map(|away| self.around(&crossing.at, [one, other], *away));
+                all.extend(circles.into_iter().find(|all| !all.is_empty()).into_iter().flatten());
+            }
+        }
+        for first in all {
             let way = self.metric.towards(&crossing.at, &first);
             let again = found.iter().map(|(_, known)| known).chain(&crossing.known);
             if !again.into_iter().any(|known| alike(self.metric, known, &way)) {
@@ -151,19 +161,21 @@ impl<Q: Equations> Space<'_, Q> {
     }
 }
 
-/// Directions to try in a space.
-fn directions(basis: &[DVector<f64>]) -> Vec<DVector<f64>> {
-    let mut all: Vec<_> = basis.iter().flat_map(|mode| [mode.clone(), -mode]).collect();
-    for (k, one) in basis.iter().enumerate() {
-        for other in &basis[..k] {
-            let turned = |part: usize| {
-                let (sin, cos) = (TAU * part as f64 / AROUND as f64).sin_cos();
-                one * cos + other * sin
-            };
-            all.extend((0..AROUND).filter(|part| part % (AROUND / 4) > 0).map(turned));
-        }
-    }
-    all
+/// The known branch point of several modes to which a step of this length leads.
+pub(super) fn ahead<'a, S>(
+    metric: Metric,
+    crossings: &'a mut [Crossing<S>],
+    (here, long): (&Here, f64),
+    (number, point): (usize, usize),
+) -> Option<&'a Crossing<S>> {
+    let known = crossings.iter_mut().find(|crossing| {
+        crossing.modes > 1
+            && !(crossing.of.path == number && point < crossing.point + ROUND)
+            && metric.apart(&crossing.at, here) <= long
+            && alike(metric, &metric.towards(here, &crossing.at), &here.tangent)
+    })?;
+    known.known.push(metric.towards(&known.at, here));
+    Some(known)
 }
 
 /// The known branch point in which a path ends, if it does; `number` and `point` are its own.
@@ -185,18 +197,4 @@ pub(super) fn joins<'a, S>(
     }
     known.known.push(metric.towards(at, before));
     Some(known)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A twelfth of a turn from each other: of sums of products 6 on the diagonal, 0 beside it.
-    #[test]
-    fn directions_lie_evenly_around() {
-        let basis = [DVector::from_row_slice(&[1.0, 0.0]), DVector::from_row_slice(&[0.0, 1.0])];
-        let all = nalgebra::DMatrix::from_columns(&directions(&basis));
-        let products = &all * all.transpose() - nalgebra::DMatrix::identity(2, 2) * 6.0;
-        assert!(all.ncols() == AROUND && products.amax() < 1e-14, "{all}");
-    }
 }

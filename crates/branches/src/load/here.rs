@@ -10,9 +10,9 @@ const TIGHT: f64 = 1e-14;
 const LOOSE: f64 = 1e-9;
 /// A point at which more is left of the equations is not given, thirty times their rounding: next to a singular one the corrector
 /// stalls, and the judge of statics, in units up to ten times as fine, allows 1e-11.
-const GIVEN: f64 = 3e-13;
+pub(super) const GIVEN: f64 = 3e-13;
 /// Iterations of the corrector; from a fair prediction it takes three.
-const ITERATIONS: usize = 12;
+pub(super) const ITERATIONS: usize = 12;
 /// A residual that has not fallen to this part in an iteration is at rounding, or the corrector
 /// diverges.
 pub(super) const FALLS: f64 = 0.5;

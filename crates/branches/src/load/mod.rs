@@ -26,6 +26,7 @@
 //! systems with wider borders, IMA J. Numer. Anal. 13 (1993) 161-180, doi:10.1093/imanum/13.2.161.
 
 mod bordered;
+mod circle;
 mod crossings;
 mod events;
 mod here;

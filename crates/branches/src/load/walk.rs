@@ -3,7 +3,7 @@ use std::mem::take;
 use nalgebra::DVector;
 
 use super::bordered::Row;
-use super::crossings::{Crossing, joins};
+use super::crossings::{Crossing, ahead, joins};
 use super::events::Singular;
 use super::here::{Here, Metric, Space, correct};
 use super::kinks::kink;
@@ -137,6 +137,9 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             watch(self.points.len());
             let slope = here.tangent.t.abs();
             let long = length.min(self.settings.longest / slope.max(f64::MIN_POSITIVE));
+            if let Some(end) = self.arrives(&here, long)? {
+                return Ok(end);
+            }
             let Some((next, lands)) = self.step(&here, long)? else {
                 length = 0.5 * long;
                 if length < SHORTEST * FIRST {
@@ -187,6 +190,29 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             length = if turn >= STRAIGHT { GROWTH * long } else { long };
         }
         Ok(End::MaxPoints)
+    }
+
+    /// The end of a path whose next step goes to a branch point that is known, at which several modes meet: next to it
+    /// all of them are too soft to step on.
+    fn arrives(&mut self, here: &Here, long: f64) -> Result<Option<End<Q::Error>>, Q::Error> {
+        let (point, metric) = ((self.paths, self.points.len()), self.space.metric);
+        let Some(known) = ahead(metric, &mut self.crossings, (here, long), point) else {
+            return Ok(None);
+        };
+        let (of, at) = (known.of, Here { index: here.index, ..known.at.clone() });
+        let (mode, load_on_mode) = self.space.mode(&at, here);
+        let event = Event {
+            kind: Kind::Branch,
+            t: at.t,
+            point: self.points.len(),
+            index: [here.index; 2],
+            turns: false,
+            sides: vec![],
+            mode: mode.iter().copied().collect(),
+            load_on_mode,
+        };
+        self.keep(&at, Some(event))?;
+        Ok(Some(End::Joins(of)))
     }
 
     /// Whether forces go through infinity on the way between two points.

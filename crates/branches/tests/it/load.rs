@@ -1,5 +1,7 @@
 //! Load paths of potentials with closed forms.
 
+use std::f64::consts::PI;
+
 use branches::load::{
     End, Equations, Kind, LoadPath, NoPath, Parent, Settings, difference, follow, linear_buckling,
 };
@@ -217,11 +219,63 @@ fn paths_leave_along_both_modes_that_meet() {
         }
         leaves.push(way);
     }
-    // Not all directions are tried, but none is followed twice.
     leaves.sort_unstable();
-    let count = leaves.len();
-    leaves.dedup();
-    assert!(count == leaves.len() && count >= 6, "{leaves:?}");
+    let all = (-1..=1).flat_map(|x| (-1..=1).map(move |z| [x, z])).filter(|way| *way != [0, 0]);
+    assert_eq!(leaves, all.collect::<Vec<_>>());
+}
+
+/// V = (1 - t) r^2 / 2 + 100 r^4 + C r^6 cos(6 a) / 6: in t = 1 twelve paths leave, along a = k pi / 6 with
+/// t - 1 = 400 r^2 +- C r^4. Between them nearly nothing moves a place along its circle: C r^5 sin(6 a).
+#[test]
+fn paths_leave_between_equal_modes_along_all_lines_of_symmetry() {
+    fn of_six<const SOFT: u32>() -> Potential {
+        Potential::new(
+            |[x, z], t| {
+                let soft = f64::from(SOFT);
+                let ([x2, z2], stiff) = ([x * x, z * z], 1.0 - t + 400.0 * (x * x + z * z));
+                let of_five = [
+                    x * (x2 * x2 - 10.0 * x2 * z2 + 5.0 * z2 * z2),
+                    -z * (5.0 * x2 * x2 - 10.0 * x2 * z2 + z2 * z2),
+                ];
+                [stiff * x + soft * of_five[0], stiff * z + soft * of_five[1]]
+            },
+            |[x, z], t| {
+                let soft = f64::from(SOFT);
+                let ([x2, z2], mixed) = ([x * x, z * z], 800.0 * x * z);
+                let stiff = 1.0 - t + 400.0 * (x2 + z2);
+                let of_four = 5.0 * (x2 * x2 - 6.0 * x2 * z2 + z2 * z2);
+                let turned = -20.0 * x * z * (x2 - z2);
+                [
+                    [stiff + 800.0 * x2 + soft * of_four, mixed + soft * turned],
+                    [mixed + soft * turned, stiff + 800.0 * z2 - soft * of_four],
+                ]
+            },
+        )
+    }
+    let all = [of_six::<100_000>(), of_six::<10_000>(), of_six::<1000>(), of_six::<100>()];
+    for (double, soft) in all.into_iter().zip([1e5, 1e4, 1e3, 1e2]) {
+        let paths = double.paths([0.0, 0.0], [0.0, 2.0], 1).unwrap();
+        let mut lines = vec![];
+        for path in &paths[1..] {
+            assert_eq!(path.end, End::Range, "{soft}");
+            let line = |[x, z]: [f64; 2]| z.atan2(x) * 6.0 / PI;
+            let first = line(path.points[0].record).round();
+            let sign = if first.rem_euclid(2.0) > 0.5 { -1.0 } else { 1.0 };
+            for point in &path.points {
+                let [x, z] = point.record;
+                let square = x * x + z * z;
+                let load = 400.0 * square + sign * soft * square * square;
+                assert!((point.t - 1.0 - load).abs() < 1e-9, "{soft}: {point:?}");
+                let off = (line([x, z]) - first).rem_euclid(12.0);
+                assert!(off.min(12.0 - off) < 1e-6, "{soft}: {point:?}");
+            }
+            lines.push(first.rem_euclid(12.0));
+        }
+        lines.sort_by(f64::total_cmp);
+        assert_eq!(lines, (0..12).map(f64::from).collect::<Vec<_>>(), "{soft}");
+    }
+    // Rounding hides them all.
+    assert_eq!(of_six::<1>().paths([0.0, 0.0], [0.0, 2.0], 1).unwrap().len(), 1);
 }
 
 /// V = x^4 / 4 - (z - 1) (2 - z) x^2 / 2 + z^2 / 2 - t z: the upright path is left in t = 1 by
