@@ -396,13 +396,13 @@ fn joint(name: &str, table: &Table<'_>) -> Result<Joint> {
     let mass = table.number("mass_kg")?;
     let force_n = vector("force_n")?;
     table.check_load(mass, force_n, "force_n")?;
-    let support = support(table, vector("at_m")?)?;
+    let near_m = vector("near_m")?;
+    let support = support(table, vector("at_m")?, near_m)?;
     if support.is_fixed()
         && let Some(key) = ["mass_kg", "force_n"].into_iter().find(|key| table.get(key).is_some())
     {
         return Err(table.error(Kind::LoadedAnchor(name.to_owned()), key));
     }
-    let near_m = vector("near_m")?;
     if support.is_fixed() && near_m.is_some() {
         return Err(table.error(Kind::Conflict { key: "near_m", other: "at_m" }, "near_m"));
     }
@@ -410,7 +410,7 @@ fn joint(name: &str, table: &Table<'_>) -> Result<Joint> {
     Ok(Joint::free(name).held_by(support).with_mass(mass_kg).with_force(force_n).near(near_m))
 }
 
-fn support(table: &Table<'_>, at_m: Option<Vector>) -> Result<Support> {
+fn support(table: &Table<'_>, at_m: Option<Vector>, near_m: Option<Vector>) -> Result<Support> {
     const SLIDES: [&str; 3] = ["free", "along", "normal"];
     const WANTED: &str = "a point where the joint may be, [x, y, z]";
     let mut given = SLIDES.into_iter().filter(|key| table.get(key).is_some());
@@ -418,7 +418,8 @@ fn support(table: &Table<'_>, at_m: Option<Vector>) -> Result<Support> {
     if let (Some(other), Some(key)) = (slide, given.next()) {
         return Err(table.error(Kind::Conflict { key, other }, key));
     }
-    let Some(at_m) = at_m else {
+    // Where it slides it is drawn.
+    let Some(at_m) = at_m.or(near_m.filter(|_| slide.is_some())) else {
         return match slide {
             Some(key) => Err(table.error(Kind::MissingKey { key: "at_m", wanted: WANTED }, key)),
             None => Ok(Support::Free),

@@ -117,7 +117,9 @@ fn support(row: &Row<'_>) -> Result<Support, Wrong> {
         }
     };
     let slide = row.word("free")?;
-    match (at_m, fixed, slide) {
+    // Where it slides it is drawn.
+    let near_m = if slide.is_some() { row.vector(NEAR)? } else { None };
+    match (at_m.or(near_m), fixed, slide) {
         (_, Some(_), Some(_)) => {
             Err((Some("free"), Kind::Conflict { key: "free", other: "fixed" }))
         }

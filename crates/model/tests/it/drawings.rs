@@ -8,7 +8,7 @@ use crate::support::system;
 
 /// A braced square, a bar between its two tops hanging in the middle of two.
 const FRAME: &str = "plane = \"xz\"\n[joints]\nA = { at_m = [0, 0, 0] }\n\
-B = { at_m = [4, 0, 0], free = \"x\" }\nC = { near_m = [0, 0, 3] }\n\
+B = { near_m = [4, 0, 0], free = \"x\" }\nC = { near_m = [0, 0, 3] }\n\
 D = { near_m = [4, 0, 3], force_n = [5, 0, 0] }\n";
 
 fn bar(from: &str, to: &str, more: &str) -> String {
@@ -36,6 +36,11 @@ fn lengths_are_those_of_the_drawing() {
     // The joint between the halves is drawn in the middle.
     let drawing = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 0.0, 3.0], [4.0, 0.0, 3.0], [2.0, 0.0, 3.0]];
     assert_eq!(read.drawing(), Some(drawing.to_vec()));
+    // Where it slides it is drawn.
+    assert_eq!(
+        read.joints()[1].support,
+        Support::Line { at_m: drawing[1], direction: [1.0, 0.0, 0.0] }
+    );
     assert_eq!(read.members()[5].body, Bar::homogeneous(5.0, 2.0).unwrap());
     // Unstretched there, or as long as the force makes it: 5 = l (1 + 250/1000).
     let elastic = frame("stiffness_n = 1e3");
