@@ -296,7 +296,8 @@ impl TraceAnswer {
         match &self.0 {
             Found::All { paths, .. } => paths.iter().map(|path| &path.checks).all(Checks::decided),
             Found::Load(found) => {
-                let early = [LoadEnd::Lost, LoadEnd::Open, LoadEnd::Unbounded, LoadEnd::Jams];
+                use LoadEnd::{Jams, Lost, NoLength, Open, Unbounded};
+                let early = [Lost, Open, Unbounded, Jams, NoLength];
                 found.paths().iter().all(|path| !early.contains(&path.end))
             }
         }

@@ -56,6 +56,7 @@ How far a system can be loaded: over a range alone, or of what is no row of rigi
 the equilibrium next to the drawing (near_m of the file, --near; else the hanging one) at the first value on,
 through limit points and branch points, stable or not, until it leaves the range of the values:
   --vary loads=0..1.2        all forces and weights times a factor
+  --vary loads=0..1.2:200    in steps of at most a 199th of the range (a 24th without a number)
   --vary loads=0,1.2,-1      from 0 towards 1.2, until the path leaves the range from -1 to 1.2
   --vary lengths=1..1.001    all bars times a factor, as when they are heated
   --vary joints.P.force_n.z=0..-50          --vary bars.3.length_m=1..0.9
@@ -81,7 +82,7 @@ Exit codes:
   1  a check failed: a point is not confirmed, a census differs from the branches
   2  bad input or usage, or no point describes a chain
   3  undecided: no equilibrium at the start of a load path, a path that is lost, or that ends before its range
-     where forces have no bound, many shapes are at rest or a rope jams; of a chain: a branch could not be followed, a
+     where forces have no bound, many shapes are at rest, a bar has no length or a rope jams; of a chain: a branch could not be followed, a
      branch point lacks its branches, or nothing is known between two points
 130  interrupted; nothing is kept to go on from, and no file is half written
 

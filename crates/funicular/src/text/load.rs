@@ -100,7 +100,8 @@ pub(crate) fn sentences(found: &LoadPaths, path: &LoadPath) -> Vec<String> {
     let loss = if path.meets_proof() {
         first_loss(found, path)
     } else {
-        "the steps of the path are too long to meet what is proved of it: take a shorter range"
+        "not confirmed, exit code 1: the steps of the path are too long to meet what is proved of it: take a shorter \
+         range"
             .to_owned()
     };
     let proof = match path.equilibria_at_every_load {
@@ -272,8 +273,12 @@ fn ends(found: &LoadPaths, path: &LoadPath) -> String {
         LoadEnd::Range => "the path ends at an end of the range".to_owned(),
         LoadEnd::MaxPoints => "the path goes on: --max-points asks for more of it".to_owned(),
         LoadEnd::Lost => "the path is lost there: no step leads on".to_owned(),
+        LoadEnd::NoLength => {
+            let (bar, _) = shortest(found, path);
+            format!("the path ends where the ends of bar {} meet: it has no length there", bar + 1)
+        }
         LoadEnd::Jams => {
-            let [a, b] = at_pulley(found, path).map(Printable);
+            let [a, b] = shortest(found, path).1.map(Printable);
             format!("the path ends where {a} comes to {b} along its rope, which jams there")
         }
         LoadEnd::Unbounded => {
@@ -293,24 +298,34 @@ fn ends(found: &LoadPaths, path: &LoadPath) -> String {
     format!("{points} point{}; {why}", if points == 1 { "" } else { "s" })
 }
 
-/// The joints of a rope that run together at the end of a path, the one that moves first.
-fn at_pulley<'a>(found: &'a LoadPaths, path: &LoadPath) -> [&'a Name; 2] {
+/// The member of which two joints run together at the end of a path, and these, the one that moves first.
+fn shortest<'a>(found: &'a LoadPaths, path: &LoadPath) -> (usize, [&'a Name; 2]) {
     let joints = found.system().joints();
     let [first, last] = [path.points.first(), path.points.last()]
         .map(|point| point.map_or(&[][..], |point| &point.joints_m));
-    let (_, mut span) = shortest_span(found.system(), first, last).unwrap_or_default();
+    let (_, member, mut span) = shortest_span(found.system(), first, last).unwrap_or_default();
     span.sort_by_key(|joint| joints[*joint].support.is_fixed());
-    span.map(|joint| &joints[joint].name)
+    (member, span.map(|joint| &joints[joint].name))
 }
 
 fn confirmed(found: &Confirmed) -> String {
     let Confirmed { points, critical, same_index, minimised, minima, singular, flat, statics } =
         *found;
     let budget = Tolerances::project().statics;
-    let over = if statics <= budget {
-        String::new()
-    } else {
-        format!(", over its budget of {}", significant(budget, 1))
+    let over_budget = format!("statics over the budget of {}", significant(budget, 1));
+    let failed: Vec<&str> = [
+        (critical == points, "equilibria"),
+        (same_index == points, "falling directions"),
+        (minima == minimised, "minima"),
+        (flat == singular, "curvatures"),
+        (statics <= budget, &over_budget),
+    ]
+    .into_iter()
+    .filter_map(|(agrees, what)| (!agrees).then_some(what))
+    .collect();
+    let failed = match &failed[..] {
+        [] => String::new(),
+        _ => format!("; not confirmed, exit code 1: {}", failed.join(", ")),
     };
     let statics = significant(statics, 1);
     let flat = match singular {
@@ -319,6 +334,28 @@ fn confirmed(found: &Confirmed) -> String {
     };
     format!(
         "energy: an equilibrium at {critical} of {points} points, as many falling directions at {same_index}, a minimum at \
-         {minima} of {minimised} stable ones{flat}; statics to {statics}{over}. Other equilibria are not looked for"
+         {minima} of {minimised} stable ones{flat}; statics to {statics}{failed}. Other equilibria are not looked for"
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_check_that_fails_is_named() {
+        let said = |statics| {
+            confirmed(&Confirmed {
+                points: 3,
+                critical: 3,
+                same_index: 2,
+                statics,
+                ..Confirmed::default()
+            })
+        };
+        let failed =
+            "; not confirmed, exit code 1: falling directions, statics over the budget of 1e-11.";
+        assert!(said(1e-9).contains(failed), "{}", said(1e-9));
+        assert!(said(0.0).contains("exit code 1: falling directions. "), "{}", said(0.0));
+    }
 }

@@ -4,7 +4,7 @@ use branches::Variation;
 use branches::load::{End, Event, Kind, LoadPath as FollowedPath, Point};
 use lagrange::net::Side;
 use model::Vector;
-use model::system::{Member, System, SystemEquilibrium};
+use model::system::{System, SystemEquilibrium};
 use numerics::vector::{minus, norm};
 use rayon::prelude::*;
 
@@ -50,33 +50,37 @@ pub(super) fn most_moved<'a: 'b, 'b>(
     Some(format!("joints.{name}.{}", ["x", "y", "z"][axis]))
 }
 
-/// A span of a rope that is shorter than this, in units of what it was where the path began, is at its end.
+/// A span that is shorter than this, in units of what it was where the path began, is at its end.
 const NO_SPAN: f64 = 1e-3;
 
-/// The span of a rope that has become shortest between two shapes, in units of what it was, and its joints.
+/// The span that has become shortest between two shapes, in units of what it was, its member and its joints.
 pub(crate) fn shortest_span(
     system: &System,
     from_m: &[Vector],
     to_m: &[Vector],
-) -> Option<(f64, [usize; 2])> {
-    let ropes = system.members().iter().filter(|member| !member.via().is_empty());
-    let parts = ropes.flat_map(Member::spans).map(|[a, b]| {
+) -> Option<(f64, usize, [usize; 2])> {
+    let members = system.members().iter().enumerate();
+    let parts = members.flat_map(|(k, member)| member.spans().map(move |[a, b]| (k, a, b)));
+    let parts = parts.map(|(k, a, b)| {
         let [before, after] = [from_m, to_m].map(|at| norm(minus(at[a], at[b])));
-        (after / before, [a, b])
+        (after / before, k, [a, b])
     });
     parts.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// Whether a path is lost where two joints of a rope run together. Of its points there only the first is kept: the others come
+/// How a path is lost where the ends of a span run together, if it is. Of its points there only the first is kept: the others come
 /// ever nearer, and their spans have directions to fewer digits than balance is judged by.
-fn jams(system: &System, path: &mut FollowedPath<Family<'_>>) -> bool {
+fn no_span(system: &System, path: &mut FollowedPath<Family<'_>>) -> Option<LoadEnd> {
     if !matches!(path.end, End::Lost | End::MaxPoints | End::Numbers(_)) {
-        return false;
+        return None;
     }
-    let Some(first) = path.points.first() else { return false };
+    let (first, last) = (path.points.first()?, path.points.last()?);
+    let [from_m, to_m] = [first, last].map(|at| &at.record.equilibrium.joints_m);
+    let (_, member, _) = shortest_span(system, from_m, to_m)?;
+    let is_rope = !system.members()[member].via().is_empty();
     let is_there = |point: &&Point<Kept>| {
         let [from_m, to_m] = [first, *point].map(|at| &at.record.equilibrium.joints_m);
-        shortest_span(system, from_m, to_m).is_some_and(|(part, _)| part < NO_SPAN)
+        shortest_span(system, from_m, to_m).is_some_and(|(part, ..)| part < NO_SPAN)
     };
     let there = path.points.iter().rev().take_while(is_there).count();
     let kept = path.points.len() + 1 - there;
@@ -84,7 +88,7 @@ fn jams(system: &System, path: &mut FollowedPath<Family<'_>>) -> bool {
     if there > 1 && path.events.iter().all(|event| event.point < kept) {
         path.points.truncate(kept);
     }
-    there > 0
+    (there > 0).then_some(if is_rope { LoadEnd::Jams } else { LoadEnd::NoLength })
 }
 
 /// A path as it is described.
@@ -95,7 +99,7 @@ pub(super) fn described(
     found: &mut FollowedPath<Family<'_>>,
 ) -> Result<LoadPath, LoadError> {
     let system = variation.base();
-    let jams = jams(system, found);
+    let no_span = no_span(system, found);
     let points = found.points.iter().map(|point| {
         let Kept { values, equilibrium } = &point.record;
         let shown = |one: &Observable| one.of(system, equilibrium);
@@ -135,8 +139,7 @@ pub(super) fn described(
             (event.by_length, event.by_place) = family.imperfections(record, of)?;
         }
     }
-    let end = match &found.end {
-        _ if jams => LoadEnd::Jams,
+    let end = no_span.unwrap_or(match &found.end {
         End::Range => LoadEnd::Range,
         End::MaxPoints => LoadEnd::MaxPoints,
         End::Joins(_) => LoadEnd::Joins,
@@ -144,7 +147,7 @@ pub(super) fn described(
         End::Open => LoadEnd::Open,
         End::Unbounded => LoadEnd::Unbounded,
         End::Numbers(_) => LoadEnd::Numbers,
-    };
+    });
     let (branches_from, joins, linear_buckling) = (None, None, None);
     let equilibria_at_every_load = None;
     Ok(LoadPath {

@@ -90,6 +90,8 @@ pub enum LoadEnd {
     Unbounded,
     /// Where a rope jams: two of its joints run together.
     Jams,
+    /// Where the ends of a bar meet: it has no direction.
+    NoLength,
     /// The numbers describe no system beyond.
     Numbers,
 }

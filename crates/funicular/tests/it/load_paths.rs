@@ -145,6 +145,40 @@ fn what_branches_off_begins_at_its_branch_point_whatever_the_range() {
     }
 }
 
+/// Over each range the two paths from each branch point begin next to it. Those of the second run the apex into a foot, where the bar
+/// of no length still pushes with EA = 1 and the other one, 2 m long, with 1 - 2/l0, which is its level part.
+#[test]
+fn paths_begin_next_to_their_branch_points_over_every_range() {
+    for to in [1, 10, 20, 50] {
+        let trace = Trace::new().vary(&format!("loads=0..{to}")).unwrap().branches(1);
+        let found = trace.run(&light(&gable(3.0, "xz", ""))).unwrap();
+        assert!(found.checks_agree() && !found.checks_decided(), "{found}");
+        let paths = found.load_paths().unwrap().paths();
+        let from = |path: &LoadPath| path.branches_from.map(|from| from.event);
+        let froms: Vec<_> = paths.iter().map(from).collect();
+        assert_eq!(froms, [None, Some(0), Some(0), Some(2), Some(2)], "{to}");
+        for (path, side) in paths[1..].iter().zip([1.0, -1.0, 1.0, -1.0]) {
+            let (event, first) = (from(path).unwrap(), &path.points[0]);
+            let same = paths.iter().find(|other| from(other) == Some(event)).unwrap();
+            let x = side * same.points[0].joints_m[2][0].signum() * first.joints_m[2][0];
+            assert!(x > 0.0 && x < 0.1, "{to}: {x}");
+            let at = paths[0].events[event].values[0];
+            assert!((first.values[0] / at - 1.0).abs() < 1e-2, "{to}: {} {at}", first.values[0]);
+            let last = path.points.last().unwrap();
+            if event == 0 {
+                assert!(path.end == LoadEnd::Range && last.values[0] <= 0.0, "{found}");
+                continue;
+            }
+            let level: f64 = 1.0 - 2.0 / 10_f64.sqrt();
+            let meets = (1.0 - level * level).sqrt();
+            assert!(path.end == LoadEnd::NoLength && (last.values[0] - meets).abs() < 1e-3);
+            let bar = if last.joints_m[2][0] > 0.0 { 2 } else { 1 };
+            let said = format!("the ends of bar {bar} meet: it has no length there");
+            assert!(found.to_string().contains(&said), "{found}");
+        }
+    }
+}
+
 /// With an apex off the centre the steep gable has no branch point, and bears less: the loss goes with the
 /// power 2/3 of the imperfection, as Koiter found for symmetric branch points that are unstable.
 #[test]
@@ -512,6 +546,13 @@ fn where_no_path_begins_the_error_says_why() {
     let turns = Problem::case("three-equal-bars").unwrap();
     let turns = Trace::new().vary("anchors.end_m.z=-2..-2.9").unwrap().run(&turns).unwrap_err();
     assert!(turns.to_string().contains("a part turns freely"), "{turns}");
+    // Straight cables bear nothing yet; with a load on them they do.
+    let lamp = gable(-0.5, "z", "").replace("at_m = [0, 0, -0.5], near_m", "near_m");
+    let lamp =
+        lamp.replace("free = \"z\", ", "").replace("stiffness_n", "kind = \"cable\"\nstiffness_n");
+    let said = run(&lamp, "loads=0..0.01");
+    assert!(said.contains("begin with a little"), "{said}");
+    assert_eq!(path(&lamp, "loads=0.0001..0.01").end, LoadEnd::Range);
     assert!(run(&gable(0.5, "z", ""), "loads=1,1").contains("needs a range"));
     assert!(run(&gable(0.5, "z", ""), "joints.Q.force_n.z=0..1").contains("no joint `Q`"));
 }

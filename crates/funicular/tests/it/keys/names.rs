@@ -36,6 +36,7 @@ fn ends_and_events_of_branches() {
     assert_eq!(name(&BranchEnd::Lost), "lost");
     assert_eq!(name(&funicular::LoadEnd::Unbounded), "unbounded");
     assert_eq!(name(&funicular::LoadEnd::Jams), "jams");
+    assert_eq!(name(&funicular::LoadEnd::NoLength), "no-length");
     assert_eq!(name(&funicular::Format::Parquet), "parquet");
     let kinds = [
         (EventKind::Fold, json!({ "kind": "fold" })),
