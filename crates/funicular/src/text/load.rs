@@ -6,7 +6,7 @@ use branches::load::MOST_PATHS;
 use model::system::Name;
 
 use super::printable::Printable;
-use super::tables::{numbers_from, outwards, short, significant, table, wrapped};
+use super::tables::{heading, heads, numbers_from, outwards, short, significant, table, wrapped};
 use crate::csv::Numbers;
 use crate::trace::description::shortest_span;
 use crate::trace::load::{BranchesFrom, Kind, LoadEnd, LoadEvent, LoadPath, LoadPaths, LoadPoint};
@@ -70,12 +70,8 @@ fn with_unit(number: String, unit: &str) -> String {
 fn one_path(found: &LoadPaths, path: &LoadPath) -> String {
     let (names, units) = found.parameters();
     let last = names.len().saturating_sub(1);
-    let headed = |name: &str, unit: &str| match unit {
-        "1" => Printable(name).to_string(),
-        _ => format!("{}\n/ {unit}", Printable(name)),
-    };
-    let mut head = vec![headed(&names[last], units[last])];
-    head.extend(found.of().iter().map(|(name, unit)| headed(name, unit)));
+    let mut head = vec![heading(&names[last], units[last], false)];
+    head.extend(heads(found.of(), 42));
     head.extend(["falling".to_owned(), "what happens".to_owned()]);
     let mut table = table(head.iter().map(String::as_str));
     let values = |k: usize| path.points.iter().filter_map(|point| point.of[k]).collect();

@@ -6,7 +6,7 @@ use model::number::Number;
 
 use super::census::plural;
 use super::printable::Printable;
-use super::tables::{numbers_from, short, table, wrapped};
+use super::tables::{heading, heads, numbers_from, short, table, wrapped};
 use crate::csv::Numbers;
 use crate::study::{StudyAnswer, StudyPoint, StudyShape};
 
@@ -77,7 +77,7 @@ fn one_path(found: &StudyAnswer, points: &[&StudyPoint]) -> String {
     let moving: Vec<usize> = (0..moves.len()).filter(|k| moves[*k]).collect();
     let parameters = moving.iter().map(|k| match moving.len() {
         1 => format!("value / {}", found.units()[*k]),
-        _ => broken(&found.parameters()[*k], found.units()[*k], true),
+        _ => heading(&found.parameters()[*k], found.units()[*k], true),
     });
     let (head, cells) = columns(found);
     let head: Vec<String> = parameters.chain(head).chain(["evidence".to_owned()]).collect();
@@ -104,13 +104,6 @@ fn one_path(found: &StudyAnswer, points: &[&StudyPoint]) -> String {
     text
 }
 
-/// The head of a column in lines, at every dot if it is to be narrow.
-fn broken(name: &str, unit: &str, narrow: bool) -> String {
-    let name = Printable(name).to_string();
-    let name = if narrow { name.replace('.', ".\n") } else { name };
-    format!("{name}\n/ {unit}")
-}
-
 /// What is shown of a shape.
 type Cells<'a> = Box<dyn Fn(&StudyShape) -> Vec<String> + 'a>;
 
@@ -118,11 +111,6 @@ type Cells<'a> = Box<dyn Fn(&StudyShape) -> Vec<String> + 'a>;
 fn columns(found: &StudyAnswer) -> (Vec<String>, Cells<'_>) {
     let number = |x: Option<f64>| x.map_or_else(String::new, short);
     if !found.of().is_empty() {
-        /// Room for the names in a line each, of 80 columns.
-        const ROOM: usize = 52;
-        let wide =
-            found.of().iter().map(|(name, _)| name.chars().count() + 2).sum::<usize>() > ROOM;
-        let head = found.of().iter().map(|(name, unit)| broken(name, unit, wide));
         let shapes = || found.points().iter().filter_map(|point| point.shape.as_ref().ok());
         let values = |k: usize| shapes().filter_map(|shape| shape.of[k]).collect();
         let columns = Numbers::of_columns(found.of(), values);
@@ -130,7 +118,7 @@ fn columns(found: &StudyAnswer) -> (Vec<String>, Cells<'_>) {
             let cells = shape.of.iter().zip(&columns);
             cells.map(|(x, column)| x.map_or_else(String::new, |x| column.short(x))).collect()
         };
-        return (head.collect(), Box::new(cells));
+        return (heads(found.of(), 52), Box::new(cells));
     }
     let mut head: Vec<String> =
         ["sag / m", "lowest", "tension / N", "bar"].map(String::from).into();

@@ -7,12 +7,26 @@ use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle
 use model::number::{decimals, trimmed};
 use model::{Evidence, Vector};
 
+use super::printable::Printable;
 use super::printed::{self, Format, head, scaled};
 use crate::csv::quoted;
 
 /// Width of tables where no terminal says its own: what every terminal, mail and report has room
 /// for.
 const WIDTH: u16 = 80;
+
+/// Heads of columns, narrow where together they are wider than this.
+pub(super) fn heads(of: &[(String, &'static str)], room: usize) -> Vec<String> {
+    let narrow = of.iter().map(|(name, _)| name.chars().count() + 2).sum::<usize>() > room;
+    of.iter().map(|(name, unit)| heading(name, unit, narrow)).collect()
+}
+
+/// The head of a column with its unit below, in lines at every dot if it is to be narrow.
+pub(super) fn heading(name: &str, unit: &str, narrow: bool) -> String {
+    let name = Printable(name).to_string();
+    let name = if narrow { name.replace('.', ".\n") } else { name };
+    if unit == "1" { name } else { format!("{name}\n/ {unit}") }
+}
 
 /// Stands before each line of a table to paste, until it is printed: all other lines are comments there.
 pub const PASTED: char = '\u{1}';
