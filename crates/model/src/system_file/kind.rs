@@ -404,8 +404,12 @@ fn refusal_help(refusal: &Refusal) -> &'static str {
             "move the anchors together or lengthen the bars"
         }
         Refusal::ShortRope { .. } => "lengthen the rope, or move the anchors together",
-        Refusal::TooLong { .. } | Refusal::Folded { .. } => {
+        Refusal::TooLong { .. } => {
             "shorten this bar, lengthen another of the loop, or move anchors of it apart"
+        }
+        Refusal::Folded { .. } => {
+            "shorten this bar, lengthen another of the loop, or move anchors of it apart; a beam with a joint on it needs \
+             depth: one more joint beside it, with bars to all three"
         }
     }
 }
