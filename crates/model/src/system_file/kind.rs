@@ -408,8 +408,8 @@ fn refusal_help(refusal: &Refusal) -> &'static str {
             "shorten this bar, lengthen another of the loop, or move anchors of it apart"
         }
         Refusal::Folded { .. } => {
-            "shorten this bar, lengthen another of the loop, or move anchors of it apart; a beam with a joint on it needs \
-             depth: one more joint beside it, with bars to all three"
+            "shorten this bar, lengthen another of the loop, or move anchors of it apart; a beam with a joint between its \
+             ends is a triangle with some depth"
         }
     }
 }
