@@ -403,7 +403,9 @@ impl<'a> Judgement<'a> {
             let what = Quantity::NamedForces { between: between.clone() };
             self.hold(what, named.value_n, named.budget_n);
         }
-        let budget = tolerances.energy * self.scale.energy_j() + self.scale.stored_j;
+        // Of what the places differ by within their budget the loads make so much.
+        let moved_j = self.scale.load_n * joints_m.min(budget_m);
+        let budget = tolerances.energy * self.scale.energy_j() + self.scale.stored_j + moved_j;
         self.hold(Quantity::Energy { between: between.clone() }, energy_j, budget);
         let indices = [first.stability.index_in_space, second.stability.index_in_space];
         self.hold(Quantity::MorseIndex { between }, indices[0].abs_diff(indices[1]) as f64, 0.0);

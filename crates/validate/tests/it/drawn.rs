@@ -454,3 +454,25 @@ fn a_mast_that_has_lost_a_guy_hangs() {
         }
     }
 }
+
+/// A triangle on a base of 2 m leans to a tip at (1000, 1000) m: what rounds its lengths moves the tip a thousand times as much, and
+/// the loads make of that all by which the energies differ. Its two long bars bear 0.001 of their difference in direction.
+#[test]
+fn a_slender_triangle_leans() {
+    let text = "plane = \"xz\"\n[joints]\nA = { at_m = [0, 0, 0] }\nB = { near_m = [2, 0, 0], free = \"x\" }\n\
+        C = { near_m = [1000, 0, 1000], mass_kg = 100 }\n";
+    let bars = [["A", "B"], ["A", "C"], ["B", "C"]]
+        .map(|[from, to]| format!("[[bars]]\nfrom = \"{from}\"\nto = \"{to}\"\nmass_kg = 0\n"));
+    let system = written(&(text.to_owned() + &bars.concat()));
+    let answer = neighbour(&system);
+    let load_n = 100.0 * G;
+    // Moments of the load about A and about B, over the distances of the bars from there.
+    let (from_a, from_b) = (1000.0 * load_n, 998.0 * load_n);
+    let wanted = [from_b / 2_f64.sqrt(), -from_a / (2e3 / 998_f64.hypot(1e3))];
+    for e in &answer.equilibria {
+        for (other, wanted) in ["A", "B"].into_iter().zip(wanted) {
+            let found = axial(&system, e, other, "C");
+            assert!((found / wanted - 1.0).abs() < 1e-6, "{other}: {found} {wanted}");
+        }
+    }
+}
