@@ -16,7 +16,7 @@ const MINIMISED: usize = 8;
 const SMALL: usize = 100;
 /// A minimum is the point if no joint is farther from it than this part of the size of the system.
 const SAME: f64 = 1e-7;
-/// A curvature below this part of the largest stiffness of a member on the path is none: a singular point is known to the square root
+/// A curvature below this part of the largest stiffness of a member on the path is zero: a singular point is known to the square root
 /// of rounding, and in it all forces may vanish.
 const FLAT: f64 = 1e-6;
 
@@ -79,7 +79,12 @@ pub(super) fn confirm(
         let (values, equilibrium, ..) = point;
         let system = variation.unloaded(values).ok()?;
         let critical = energy::net::critical(&system, &equilibrium.joints_m).ok().flatten();
-        let looked_at = *minimised && critical.is_some() && !system.is_unloaded();
+        // Nor does a minimiser tell how far it is from where nothing resists.
+        let resists = |found: &Critical| {
+            found.curvature_n_m.is_none_or(|n_m| n_m > FLAT * found.stiffest_n_m)
+        };
+        let looked_at =
+            *minimised && critical.as_ref().is_some_and(resists) && !system.is_unloaded();
         Some(Seen {
             load_n: system.total_load_n(),
             statics: judge(&system, equilibrium).largest(),
@@ -100,7 +105,7 @@ pub(super) fn confirm(
         let Some(critical) = critical else { continue };
         found.points += 1;
         found.critical += usize::from(critical.is_equilibrium());
-        // Where a curvature is none its sign is rounding.
+        // The sign of such a curvature is rounding.
         let flat = critical.curvature_n_m.is_some_and(|n_m| n_m.abs() <= FLAT * stiffest_n_m);
         found.same_index += usize::from(*event || flat || critical.index == *index);
         let smooth = |event: &&LoadEvent| event.kind != Kind::Kink;
