@@ -257,6 +257,7 @@ impl SystemFileErrorKind {
             | Self::UnknownKind { allowed, suggestion, .. } => {
                 let list = format!("allowed here: {}", allowed.join(", "));
                 return Some(match suggestion {
+                    Some("bars") => format!("did you mean `bars` (with a `kind`)? {list}"),
                     Some(near) => format!("did you mean `{near}`? {list}"),
                     None => list,
                 });

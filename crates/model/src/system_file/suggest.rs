@@ -1,7 +1,7 @@
 //! What a misspelt key was meant to be.
 
 /// What others call a key.
-const OTHER_WORDS: [(&str, &str); 7] = [
+const OTHER_WORDS: [(&str, &str); 15] = [
     ("ea", "stiffness_n"),
     ("ea_n", "stiffness_n"),
     ("e", "young_pa"),
@@ -9,6 +9,14 @@ const OTHER_WORDS: [(&str, &str); 7] = [
     ("weight_n", "mass_kg"),
     ("load_n", "force_n"),
     ("rope", "cable"),
+    ("start", "from"),
+    ("end", "to"),
+    ("nodes", "joints"),
+    ("cables", "bars"),
+    ("struts", "bars"),
+    ("ropes", "bars"),
+    ("members", "bars"),
+    ("elements", "bars"),
 ];
 
 /// The allowed key most like this one, if it is like one at all: a slip of a few letters, another

@@ -59,6 +59,8 @@ fn help_says_what_is_allowed() {
         help(&barred("colour = \"red\"")),
         "allowed here: name, gravity_m_s2, floor_m, plane, safety, tolerances, anchors, bars, bars_file, loads, cases, joints, joints_file"
     );
+    assert!(help(&barred("[nodes]")).starts_with("did you mean `joints`? "));
+    assert!(help("[[cables]]").starts_with("did you mean `bars` (with a `kind`)? "));
     assert_eq!(help(&barred("")), "anchors must be a table with start_m and end_m");
     assert_eq!(
         help(&anchored("[[bars]]\nlength_m = \"1\"\nmass_kg = 1\n")),
