@@ -6,10 +6,13 @@
 //! at all is asked of a parser of JSON first.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
-/// Whether a text is meant as JSON: a brace is the first character that is no blank.
-pub(super) fn is_json(text: &str) -> bool {
-    text.trim_start().starts_with('{')
+/// Whether a text is meant as JSON: a brace is the first character that is no blank, or its file is named so.
+pub(super) fn is_json(file: &str, text: &str) -> bool {
+    let text = text.trim_start();
+    let named = || Path::new(file).extension().is_some_and(|end| end.eq_ignore_ascii_case("json"));
+    text.starts_with('{') || !text.is_empty() && named()
 }
 
 /// The same as TOML, or where and why the text is no JSON.
@@ -101,9 +104,12 @@ fn escape(text: &str, rest: &mut impl Iterator<Item = (usize, char)>, toml: &mut
     }
 }
 
-/// Refuse what is no JSON, without building it up.
+/// Refuse what is no object of JSON, without building its values up.
 fn check(text: &str) -> Result<(), (usize, String)> {
-    let Err(error) = serde_json::from_str::<serde::de::IgnoredAny>(text) else { return Ok(()) };
+    let Err(error) = serde_json::from_str::<serde::de::IgnoredAny>(text) else {
+        let is_object = text.trim_start().starts_with('{');
+        return is_object.then_some(()).ok_or_else(|| (0, "expected an object".to_owned()));
+    };
     let begin: usize = text.split_inclusive('\n').take(error.line() - 1).map(str::len).sum();
     let line = text[begin..].lines().next().unwrap_or_default();
     // Columns count bytes, from 1.

@@ -56,7 +56,7 @@ pub enum SystemFileErrorKind {
     /// Occurs when the text is not TOML.
     #[error("not valid TOML: {0}")]
     Syntax(String),
-    /// Occurs when the text begins like JSON and is not JSON, or holds what no system can.
+    /// Occurs when the text begins like JSON, or its file is named so, and it is no object of JSON or holds what no system can.
     #[error("not valid JSON: {0}")]
     Json(String),
     /// Occurs when a key is given twice.

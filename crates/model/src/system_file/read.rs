@@ -78,7 +78,7 @@ fn described(
     folder: Option<&Path>,
     rows: Option<RowsReader<'_>>,
 ) -> Result<Described> {
-    if !json::is_json(text) {
+    if !json::is_json(file, text) {
         return Source { folder, rows, ..Source::of(file, text) }.described();
     }
     let failed = |(offset, message): (usize, String)| {

@@ -124,4 +124,8 @@ fn what_is_no_json_is_told_with_its_place() {
     assert_eq!(error.span().unwrap().start, 15);
     assert!(error.to_string().ends_with("expected value"), "{error}");
     assert!(parse("{\"a\": [null]}", "f").unwrap_err().to_string().contains("null"));
+    for (text, what) in [("// a\n{}", "expected value"), ("[{}]", "expected an object")] {
+        let said = parse(text, "f.json").unwrap_err().to_string();
+        assert!(said.starts_with("f.json:1:1: not valid JSON") && said.ends_with(what), "{said}");
+    }
 }
