@@ -189,13 +189,13 @@ impl<'a> Table<'a> {
         value: &Value<'_>,
         wanted: &'static str,
     ) -> Result<usize> {
-        let Some(integer) = value.get_ref().as_integer() else {
+        let Some(whole) = number(value).filter(|x| x.fract().abs() <= 0.0) else {
             return Err(self.wrong_type(key, value, wanted));
         };
-        match usize::from_str_radix(integer.as_str(), integer.radix()) {
+        match whole.to_string().parse() {
             Ok(count) if count > 0 => Ok(count),
             _ => {
-                let found = integer.to_string();
+                let found = self.source.text[value.span()].to_owned();
                 Err(self.error(Kind::OutOfRange { found, wanted }, key))
             }
         }

@@ -32,14 +32,15 @@ fn deep_nests_are_refused_and_not_followed() {
 #[test]
 fn numbers_are_read_as_written() {
     let text = "gravity_m_s2 = 0x10\nanchors = { start_m = [-0, 1_000, 0o17], end_m = [2, 0.1, 1e3] }\n\
-                bars = [{ length_m = 18446744073709551617, mass_kg = 9007199254740993, count = 0b11 }]\n";
+                bars = [{ length_m = 18446744073709551617, mass_kg = 9007199254740993, count = 0b11 },\n\
+                { length_m = 1, mass_kg = 9e15, count = 2.0 }]\n";
     let problem = chain(parse(text, "f")).unwrap();
     let chain = problem.chain();
     assert_eq!(chain.gravity_m_s2().to_bits(), 16.0_f64.to_bits());
     let bits = |v: [f64; 3]| v.map(f64::to_bits);
     assert_eq!(bits(chain.anchors().start_m), bits([-0.0, 1000.0, 15.0]));
     assert_eq!(bits(chain.anchors().end_m), bits([2.0, 0.1, 1000.0]));
-    assert_eq!(chain.bars().len(), 3);
+    assert_eq!(chain.bars().len(), 3 + 2);
     // 2^64 + 1 and 2^53 + 1 are no doubles; the nearest are.
     assert_eq!(chain.bars()[0].length_m().to_bits(), 2.0_f64.powi(64).to_bits());
     assert_eq!(chain.bars()[0].mass_kg().to_bits(), 2.0_f64.powi(53).to_bits());
