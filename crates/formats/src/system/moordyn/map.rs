@@ -9,7 +9,7 @@
 //!
 //! MAP++, <https://map-plus-plus.readthedocs.io>, "Input File"; `repeat` turns clockwise, as its source does.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use model::budget::{BYTES_PER_MEMBER, Budget};
 use model::system::Joint;
@@ -58,7 +58,7 @@ pub fn parse_map(text: &str, file: &str) -> Result<ForeignSystem> {
     room.map_err(|error| At::file(file).memory(error))?;
     lines.iter().try_for_each(flags)?;
     let (mut joints, mut members, mut held_n) = (Vec::new(), Vec::new(), Vec::new());
-    let mut numbers = HashMap::new();
+    let (mut numbers, mut ids) = (HashMap::new(), HashSet::new());
     for (copy, angle) in angles.iter().enumerate() {
         for (k, row) in nodes.iter().enumerate() {
             let name = numbered(row, copy, nodes.len(), k)?;
@@ -89,7 +89,8 @@ pub fn parse_map(text: &str, file: &str) -> Result<ForeignSystem> {
             length_m: row.positive("length")?,
             count: SEGMENTS,
         };
-        notes.push(line.read(row, gravity_m_s2, &budget, (&mut joints, &mut members))?);
+        let into = (&mut joints, &mut members, &mut ids);
+        notes.push(line.read(row, gravity_m_s2, &budget, into)?);
     }
     super::foreign(&sections, gravity_m_s2, (joints, members), (notes, floor_m))
 }

@@ -17,7 +17,7 @@ mod map;
 mod options;
 mod sections;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use model::budget::{BYTES_PER_MEMBER, Budget};
 use model::system::{Joint, Member, PointLoad, System};
@@ -125,7 +125,7 @@ pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem> {
         joints.push(joint);
     }
     notes.extend(super::held_loads(held_n.into_iter()));
-    let (mut members, budget) = (Vec::new(), Budget::default());
+    let (mut members, mut ids, budget) = (Vec::new(), HashSet::new(), Budget::default());
     let lines = sections.need(Section::Lines)?.rows(LINE_COLUMNS)?;
     // Of all lines, before the first is made.
     let all = lines.iter().map(segments).sum::<Result<usize, _>>()?;
@@ -139,7 +139,7 @@ pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem> {
             length_m: row.positive("length")?,
             count: segments(&row)?,
         };
-        let into = (&mut joints, &mut members);
+        let into = (&mut joints, &mut members, &mut ids);
         notes.push(line.read(&row, options.gravity_m_s2, &budget, into)?);
     }
     foreign(&sections, options.gravity_m_s2, (joints, members), (notes, options.floor_m))
@@ -303,9 +303,12 @@ impl Line<'_> {
         row: &Row<'_>,
         gravity_m_s2: f64,
         budget: &Budget,
-        (joints, members): (&mut Vec<Joint>, &mut Vec<Member>),
+        (joints, members, ids): (&mut Vec<Joint>, &mut Vec<Member>, &mut HashSet<String>),
     ) -> Result<String> {
         let Self { id, kind, ends: [from, to], length_m, count } = self;
+        if !ids.insert(id.clone()) {
+            return Err(row.at().repeated(format!("line {id}")));
+        }
         let asked =
             budget.take_members(*count).and_then(|()| budget.take_names(*count, id.len() + DIGITS));
         asked.map_err(|error| row.at().memory(error))?;
