@@ -98,6 +98,8 @@ fn an_answer_is_judged_by_the_digits_that_it_has() {
     write(&folder, "lamp.toml", &lamp);
     // Without the anchors, which are those of the file.
     write(&folder, "centimetres.csv", "joint,x_m,y_m,z_m\nP,0,0,-4.58\n");
+    write(&folder, "millimetres.csv", "joint,x_m,y_m,z_m\nP,0,0,-4583\n");
+    write(&folder, "feet.csv", "joint,x_m,y_m,z_m\nA,-6.56,0,0\nB,6.56,0,0\nP,0,0,-15\n");
     write(&folder, "whole.csv", "joint,x_m,y_m,z_m\nP,0,0,-4.58257569496\n");
     write(&folder, "forces.csv", "from,to,axial_n\nA,P,5.35\nP,B,5.35\n");
     write(&folder, "wrong.csv", "from,to,axial_n\nA,P,5.38\nP,B,5.38\n");
@@ -107,6 +109,10 @@ fn an_answer_is_judged_by_the_digits_that_it_has() {
     };
     let (code, out) = unwrapped(&["centimetres.csv"]);
     assert_eq!(code, Some(1), "{out}");
+    for unit in ["millimetres", "feet"] {
+        let (_, out) = unwrapped(&[&format!("{unit}.csv")]);
+        assert!(out.contains(&format!("The places seem to be in {unit}: they")), "{out}");
+    }
     let says = "Positions look rounded to 0.01 m: with --tolerance 1e-3 the answer is confirmed.";
     assert!(out.contains(says), "{out}");
     let (code, out) = unwrapped(&["centimetres.csv", "--tolerance", "1e-3"]);

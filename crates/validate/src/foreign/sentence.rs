@@ -4,7 +4,8 @@ use std::fmt::{self, Display, Formatter};
 
 use model::Place;
 use model::number::{Brief, Rounded};
-use model::system::System;
+use model::system::{Member, System};
+use numerics::vector::{minus, norm};
 
 use super::bounds::STORED;
 use super::digits;
@@ -188,7 +189,7 @@ impl Judgement {
     /// At which tolerance the answer would be confirmed, if it is not and there is one; and to what
     /// its positions look rounded, if that explains it.
     pub fn tolerance_sentence(&self, system: &System) -> Option<String> {
-        let tolerance = self.confirmed_at?;
+        let Some(tolerance) = self.confirmed_at else { return self.unit_sentence(system) };
         let confirmed = format!("with --tolerance {tolerance:.0e} the answer is confirmed.");
         let moving = system.joints().iter().zip(&self.answer.joints_m);
         let moving = moving.filter(|(joint, _)| !joint.support.is_fixed());
@@ -203,6 +204,21 @@ impl Judgement {
         });
         let capital = || format!("W{}", &confirmed[1..]);
         Some(rounded.map_or_else(capital, |rounded| rounded + &confirmed))
+    }
+
+    /// In which unit the places seem to be, if in that and not in metres members are as long as in the system.
+    fn unit_sentence(&self, system: &System) -> Option<String> {
+        /// How far all lengths together may be from those of the system: elastic members stretch, slack ones sag, and
+        /// anchors that the answer leaves out are in metres.
+        const NEAR: f64 = 0.1;
+        let at_m = &self.answer.joints_m;
+        let spans = system.members().iter().flat_map(Member::spans);
+        let distances_m: f64 = spans.map(|[a, b]| norm(minus(at_m[a], at_m[b]))).sum();
+        let lengths_m: f64 = system.members().iter().map(|one| one.body.length_m()).sum();
+        let units = [("millimetres", 1e-3), ("centimetres", 1e-2), ("feet", 0.3048)];
+        let fits = |unit_m: f64| (unit_m * distances_m / lengths_m - 1.0).abs() < NEAR;
+        let (unit, _) = units.into_iter().find(|(_, unit_m)| fits(*unit_m))?;
+        Some(format!("The places seem to be in {unit}: they are read in metres."))
     }
 
     /// How large the error is, one sentence for each equilibrium and each solver without one.
