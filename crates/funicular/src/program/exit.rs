@@ -3,7 +3,6 @@
 use branches::{ContinuationError, ParameterError};
 use funicular::{Error, LoadError};
 use model::steers;
-use validate::systems::SystemFailure;
 
 use crate::diagnostics::Diagnostic;
 
@@ -128,7 +127,9 @@ impl From<Error> for Failure {
             Error::Disagreed => Exit::CheckFailed,
             // A disk that fails says nothing about the input, and those who run many may try again.
             Error::Store(error) if error.may_pass() => Exit::Undecided,
-            Error::Unsolved(answer) if !answer.failures().iter().all(SystemFailure::is_misfit) => {
+            Error::Unsolved(answer)
+                if !answer.failures().iter().all(|one| one.is_misfit() || one.falls()) =>
+            {
                 Exit::Undecided
             }
             Error::Lagrange(_)

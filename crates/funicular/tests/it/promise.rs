@@ -146,6 +146,10 @@ fn lengths_that_cannot_be_assembled_are_refused() {
         longer.replace("\"mass_kg\": 0.0", "\"mass_kg\": 0.0, \"length_tolerance_m\": 1e-4");
     std::fs::write(folder.path().join("tolerant.json"), tolerant).unwrap();
     assert_eq!(run(&folder, &["solve", "tolerant.json"]).0, Some(0));
+    let falls = "plane = \"xz\"\njoints = { P = { near_m = [0, 0, 0], mass_kg = 1 }, Q = { near_m = [1, 0, 0] } }\n\
+                 bars = [{ from = \"P\", to = \"Q\", mass_kg = 0 }]\n";
+    std::fs::write(folder.path().join("falls.toml"), falls).unwrap();
+    assert_eq!(run(&folder, &["solve", "falls.toml"]).0, Some(2));
 }
 
 /// A moment about the bar, which nothing feels, changes no frequency.
