@@ -17,6 +17,8 @@ use validate::Tolerances;
 const PRINTED: usize = 16;
 /// Digits of a value at which something happens.
 const DIGITS: usize = 9;
+/// The same where several modes give way at once: known to the root of rounding.
+const FEWER_DIGITS: usize = 6;
 /// Joints named of a mode, those that move most.
 const MODE: usize = 3;
 /// Bars or joints named of a kink.
@@ -43,10 +45,17 @@ pub(super) fn text(found: &LoadPaths) -> String {
 
 /// `the branch point of path 1 at loads = 3.1`.
 fn branch_point(found: &LoadPaths, BranchesFrom { path, event }: BranchesFrom) -> String {
+    let at = event_at(found, &found.paths()[path].events[event]);
+    format!("the branch point of path {} at {at}", path + 1)
+}
+
+fn event_at(found: &LoadPaths, event: &LoadEvent) -> String {
     let (names, units) = found.parameters();
     let last = names.len().saturating_sub(1);
-    let at = &found.paths()[path].events[event].values[last];
-    format!("the branch point of path {} at {}", path + 1, valued(&names[last], *at, units[last]))
+    let several = event.kind == Kind::Branch && event.index[0].abs_diff(event.index[1]) > 1;
+    let digits = if several { FEWER_DIGITS } else { DIGITS };
+    let value = with_unit(significant(event.values[last], digits), units[last]);
+    format!("{} = {value}", Printable(&names[last]))
 }
 
 /// The parameters that stay the same along a path, with their values.
@@ -153,8 +162,6 @@ pub(crate) fn happens(event: &LoadEvent) -> String {
 }
 
 fn first_loss(found: &LoadPaths, path: &LoadPath) -> String {
-    let (names, units) = found.parameters();
-    let last = names.len().saturating_sub(1);
     let starts = path.points.first().map_or(0, |point| point.index);
     if starts > 0 {
         return format!(
@@ -168,7 +175,7 @@ fn first_loss(found: &LoadPaths, path: &LoadPath) -> String {
             _ => "stable from its start to its end".to_owned(),
         };
     };
-    let at = valued(&names[last], event.values[last], units[last]);
+    let at = event_at(found, event);
     let by = match event.kind {
         Kind::Limit => "a limit point".to_owned(),
         Kind::Branch => match event.index[1] {

@@ -98,8 +98,15 @@ fn text(answer: &ModesAnswer) -> String {
                 "the lowest {listed}; the inertia of the factorised stiffness counts no other below"
             );
         }
-        let _ = writeln!(out, "{}", rows(found));
-        let _ = writeln!(out, "{}", wrapped(&proved(&found.enclosed), 2));
+        if all == 0 {
+            let _ = writeln!(
+                out,
+                "nothing moves while members keep their lengths: what has a stiffness_n oscillates"
+            );
+        } else {
+            let _ = writeln!(out, "{}", rows(found));
+            let _ = writeln!(out, "{}", wrapped(&proved(&found.enclosed), 2));
+        }
         if found.index_in_space != found.index_by_modes {
             let falls = counted(found.index_in_space, "direction");
             let note = format!(

@@ -20,11 +20,16 @@ fn a_symmetric_dome_leaves_its_symmetry_before_its_limit() {
     assert!(2.0 * paths[0].events[0].values[0] > paths[0].events[3].values[0]);
     is_proved(&paths[0], branch, paths[0].events[0].values[0]);
     assert!(1.9 * paths[0].events[0].values[0] < paths[0].events[3].values[0]);
-    let from = |event: usize| {
-        let all = paths.iter().filter_map(|path| path.branches_from);
-        all.filter(|from| (from.path, from.event) == (0, event)).count()
-    };
-    assert_eq!([from(0), from(1), from(2)], [2, 6, 12]);
+    // Where two modes meet, all paths are found from points beside it, whatever the range is.
+    let wide = Trace::new().vary("loads=0..1000").unwrap().branches(1).max_points(300);
+    for paths in [paths, super::paths(&dome(1, true), &wide)] {
+        let from = |event: usize| {
+            let all = paths.iter().filter_map(|path| path.branches_from);
+            all.filter(|from| (from.path, from.event) == (0, event)).count()
+        };
+        assert_eq!([from(0), from(1), from(2)], [2, 6, 12]);
+        assert!(paths.iter().all(|path| path.end != LoadEnd::Lost));
+    }
 }
 
 /// 61 joints, 393 unknowns.
