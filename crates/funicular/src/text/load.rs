@@ -105,7 +105,7 @@ pub(crate) fn sentences(found: &LoadPaths, path: &LoadPath) -> Vec<String> {
     let loss = if path.meets_proof() {
         first_loss(found, path)
     } else {
-        "not confirmed, exit code 1: the steps of the path are too long to meet what is proved of it: take a shorter \
+        "not confirmed: the steps of the path are too long to meet what is proved of it: take a shorter \
          range"
             .to_owned()
     };
@@ -328,7 +328,7 @@ fn confirmed(found: &Confirmed) -> String {
     .collect();
     let failed = match &failed[..] {
         [] => String::new(),
-        _ => format!("; not confirmed, exit code 1: {}", failed.join(", ")),
+        _ => format!("; not confirmed: {}", failed.join(", ")),
     };
     let statics = significant(statics, 1);
     let flat = match singular {
@@ -356,9 +356,8 @@ mod tests {
                 ..Confirmed::default()
             })
         };
-        let failed =
-            "; not confirmed, exit code 1: falling directions, statics over the budget of 1e-11.";
+        let failed = "; not confirmed: falling directions, statics over the budget of 1e-11.";
         assert!(said(1e-9).contains(failed), "{}", said(1e-9));
-        assert!(said(0.0).contains("exit code 1: falling directions. "), "{}", said(0.0));
+        assert!(said(0.0).contains("not confirmed: falling directions. "), "{}", said(0.0));
     }
 }
