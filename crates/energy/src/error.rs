@@ -161,9 +161,9 @@ pub enum Error {
         /// Largest misfit of a length over the length.
         misfit: f64,
     },
-    /// Occurs when the configuration found is no minimum: the energy falls in some directions.
+    /// Occurs when the configuration found is not a minimum: the energy falls in some directions.
     #[error(
-        "the configuration found is no minimum: the energy falls in {index} independent directions"
+        "the configuration found is not a minimum: the energy falls in {index} independent directions"
     )]
     NoMinimum { index: usize },
     /// Occurs when the descent from a drawing leads far away from it: no minimum lies next to it.

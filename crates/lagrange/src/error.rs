@@ -219,7 +219,7 @@ pub enum Error {
     )]
     NoDerivative { left: f64 },
     /// Occurs when the derivative by the place of a joint is asked for that is no anchor.
-    #[error("joint {joint} is no anchor: its place is no parameter")]
+    #[error("joint {joint} is not an anchor: its place is not a parameter")]
     NotAnAnchor { joint: String },
 }
 

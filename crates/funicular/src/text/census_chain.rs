@@ -36,8 +36,7 @@ fn families(chain: &Chain) -> String {
          way they can;\nthe dimension is that in the plane, where two slack bars have two ways):\n{rows}\n"
     );
     if chain.slack_families.iter().any(|family| !family.is_manifold) {
-        text +=
-            "* no manifold: the slack bars also fit into one line, or close upon themselves folded";
+        text += "* not a manifold: the slack bars also fit into one line, or close upon themselves folded";
         text += if chain.decided { "; no other equilibrium is near.\n" } else { ".\n" };
     }
     left_out(&mut text, chain.slack_families.len(), PRINTED_OPEN, "families");

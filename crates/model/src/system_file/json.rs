@@ -33,7 +33,7 @@ pub(super) fn as_toml(text: &str) -> Result<String, (usize, String)> {
             }
             ':' => toml.push('='),
             // Outside of a string no other word of JSON begins so.
-            'n' => return Err((place, "null is no value here".to_owned())),
+            'n' => return Err((place, "null is not allowed here".to_owned())),
             '{' | '[' => {
                 depth += 1;
                 toml.push(if depth == 1 { ' ' } else { c });

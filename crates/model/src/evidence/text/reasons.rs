@@ -61,17 +61,17 @@ impl Display for Reason {
             }
             Self::CensusUndecided { cells } => write!(f, "{cells} cells of pulls are undecided"),
             Self::SingularFamilies { listed: 1 } => f.write_str(
-                "one family with slack bars is no manifold: they also fit into one line, or close upon themselves",
+                "one family with slack bars is not a manifold: they also fit into one line, or close upon themselves",
             ),
             Self::SingularFamilies { listed } => write!(
                 f,
-                "{listed} families with slack bars are no manifolds: they also fit into one line, or close upon \
+                "{listed} families with slack bars are not manifolds: they also fit into one line, or close upon \
                  themselves"
             ),
             Self::StraightPosition { sides } => write!(
                 f,
                 "sides {} are together as long as the others: a straight position exists, and the configuration space \
-                 is no manifold there",
+                 is not a manifold there",
                 sides.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
             ),
             Self::CountUnchecked { sides } => write!(

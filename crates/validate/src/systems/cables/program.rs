@@ -24,7 +24,7 @@ pub enum ConeError {
     #[error("member {0} is a rope over rings or pulleys, which this programme does not take")]
     Rope(usize),
     /// Occurs when a member, by its number from 1, is a strut, which no convex programme knows.
-    #[error("member {0} is a strut, and the least energy of struts is no convex problem")]
+    #[error("member {0} is a strut, and the least energy of struts is not a convex problem")]
     Strut(usize),
     /// Occurs when clarabel does not accept the programme, which would be a bug here.
     #[error("the cone programme was not accepted")]
