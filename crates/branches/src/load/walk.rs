@@ -34,9 +34,9 @@ const SINGULAR: f64 = 1e6;
 /// Places whose change over the range is less than this at the start count as if it were this.
 const STILL: f64 = 1e-3;
 /// Tangents with less of the parameter than this, a thousandth of the way apart or more, are along equilibria at one value of
-/// it: no bend is so flat.
+/// it: no bend is so flat, but what branches off begins flat, and may stay so for a tenth.
 const FLAT: f64 = 1e-6;
-const LONG: f64 = 1e-3;
+const LONG: [f64; 2] = [1e-3, 0.1];
 /// Forces that turn round between two points and are so many times as large in between go through infinity.
 const BURST: f64 = 4.0;
 /// The step before that is no longer than this part of the first.
@@ -132,7 +132,8 @@ impl<'a, Q: Equations> Walk<'a, Q> {
     }
 
     fn run(&mut self, mut here: Here, watch: &dyn Fn(usize)) -> Result<End<Q::Error>, Q::Error> {
-        let mut length = FIRST;
+        // Since where the parameter has not changed.
+        let (mut length, mut flat) = (FIRST, None::<Here>);
         while self.points.len() < self.settings.max_points {
             watch(self.points.len());
             let slope = here.tangent.t.abs();
@@ -147,8 +148,12 @@ impl<'a, Q: Equations> Walk<'a, Q> {
                 }
                 continue;
             };
-            if self.is_open(&here, &next) {
-                self.leave_open(here.t);
+            flat = is_flat([flat.as_ref().unwrap_or(&here), &next])
+                .then(|| flat.unwrap_or_else(|| here.clone()));
+            if let Some(first) = flat.as_ref()
+                && self.space.metric.apart(first, &next) >= LONG[usize::from(self.depth > 0)]
+            {
+                self.leave_open(first.t);
                 return Ok(End::Open);
             }
             let turn = self.turn(&here, &next);
@@ -220,13 +225,6 @@ impl<'a, Q: Equations> Walk<'a, Q> {
         let places = self.space.metric.places;
         let [a, at, b] = way.map(|here| here.y.rows(places, here.y.len() - places));
         a.dot(&b) < 0.0 && at.norm() > BURST * a.norm().max(b.norm())
-    }
-
-    /// Whether places change between two points at one value of the parameter.
-    fn is_open(&self, a: &Here, b: &Here) -> bool {
-        (b.t - a.t).abs() <= ROUNDING
-            && [a, b].iter().all(|here| here.tangent.t.abs() <= FLAT)
-            && self.space.metric.apart(a, b) >= LONG
     }
 
     /// Of the points at this value of the parameter only the first, and what changes sides there.
@@ -403,4 +401,9 @@ impl<'a, Q: Equations> Walk<'a, Q> {
         self.points.push(Point { t: here.t, index: here.index, event: number, record });
         Ok(())
     }
+}
+
+/// Whether two points are at one value of the parameter, and their tangents along it.
+fn is_flat([a, b]: [&Here; 2]) -> bool {
+    (b.t - a.t).abs() <= ROUNDING && [a, b].iter().all(|here| here.tangent.t.abs() <= FLAT)
 }
