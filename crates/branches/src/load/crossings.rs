@@ -17,14 +17,11 @@ use super::singular::ITERATIONS;
 use super::{Equations, LoadPath, NoPath, Parent, Settings};
 use crate::load::walk::{Walk, begin};
 
-/// How far from a branch point a path is picked up, in units of the length of the path: further away
-/// other modes that meet there are stiffer again.
-const AWAY: [f64; 3] = [4e-2, 4e-3, 4e-4];
+/// How far from a branch point a path is picked up, in units of the length of the path.
+const AWAY: f64 = 4e-2;
 /// A point farther from the branch point than so many times that is of no path through it: it went there along the
 /// parameter alone, or jumped.
 const FARTHEST: f64 = 4.0;
-/// Starts beside a direction, along the parameter, in units of that.
-const BESIDE: [f64; 3] = [0.0, 1.0, -1.0];
 /// A path comes to a branch point if it passes it by less than this part of a step: from its side the
 /// place is known to the root of rounding.
 const SAME: f64 = 1e-3;
@@ -116,9 +113,7 @@ impl<Q: Equations> Space<'_, Q> {
         }
         for (k, one) in basis.iter().enumerate() {
             for other in &basis[..k] {
-                let circles =
-                    AWAY.iter().map(|away| self.around(&crossing.at, [one, other], *away));
-                all.extend(circles.into_iter().find(|all| !all.is_empty()).into_iter().flatten());
+                all.extend(self.around(&crossing.at, [one, other], AWAY));
             }
         }
         for first in all {
@@ -139,38 +134,37 @@ impl<Q: Equations> Space<'_, Q> {
         // The parameter counts by its way from the start, however wide the range is.
         let unit =
             Some(at.t.abs()).filter(|way| (f64::MIN_POSITIVE..1.0).contains(way)).unwrap_or(1.0);
-        for away in AWAY {
-            for beside in BESIDE {
-                let guess = (&at.y + direction * away, at.t + beside * away * unit);
-                let found = correct(self.equations, (&guess.0, guess.1), &row);
-                let Ok(Ok(found)) = found else { continue };
-                // Straight on is the path that is known.
-                let new = Row { y: &found.0 - &at.y, t: found.1 - at.t };
-                let far = metric.norm(&new.y, new.t / unit);
-                let along = known.dot(&new.y, new.t).abs();
-                if far > FARTHEST * away || along > ALIKE * metric.norm(&new.y, new.t) {
-                    continue;
-                }
-                let here = self.here(found, [&row, &row]).ok().flatten();
-                if let Some(here) = here.filter(|here| self.is_exact(here).unwrap_or(false)) {
-                    return Some(here);
-                }
-            }
+        let guess = &at.y + direction * AWAY;
+        let found = correct(self.equations, (&guess, at.t), &row).ok()?.ok()?;
+        // Straight on is the path that is known.
+        let new = Row { y: &found.0 - &at.y, t: found.1 - at.t };
+        let far = metric.norm(&new.y, new.t / unit);
+        let along = known.dot(&new.y, new.t).abs();
+        if far > FARTHEST * AWAY || along > ALIKE * metric.norm(&new.y, new.t) {
+            return None;
         }
-        None
+        let here = self.here(found, [&row, &row]).ok()??;
+        self.is_exact(&here).is_ok_and(|exact| exact).then_some(here)
     }
 }
 
-/// The known branch point of several modes to which a step of this length leads.
+impl<S> Crossing<S> {
+    /// Whether a path comes from here: it may have several of its own one after another, but does not turn round at once.
+    fn begins(&self, (number, point): (usize, usize)) -> bool {
+        self.of.path == number && point < self.point + ROUND
+    }
+}
+
+/// The known branch point of several modes to which a step of this length leads; `own` as below.
 pub(super) fn ahead<'a, S>(
     metric: Metric,
     crossings: &'a mut [Crossing<S>],
     (here, long): (&Here, f64),
-    (number, point): (usize, usize),
+    own: (usize, usize),
 ) -> Option<&'a Crossing<S>> {
     let known = crossings.iter_mut().find(|crossing| {
         crossing.modes > 1
-            && !(crossing.of.path == number && point < crossing.point + ROUND)
+            && !crossing.begins(own)
             && metric.apart(&crossing.at, here) <= long
             && alike(metric, &metric.towards(here, &crossing.at), &here.tangent)
     })?;
@@ -178,18 +172,16 @@ pub(super) fn ahead<'a, S>(
     Some(known)
 }
 
-/// The known branch point in which a path ends, if it does; `number` and `point` are its own.
+/// The known branch point in which a path ends, if it does; `own` are its numbers of path and point.
 pub(super) fn joins<'a, S>(
     metric: Metric,
     crossings: &'a mut [Crossing<S>],
     [before, at, after]: [&Here; 3],
-    (number, point): (usize, usize),
+    own: (usize, usize),
 ) -> Option<&'a Crossing<S>> {
-    // It may have several of its own one after another, but does not turn round at once.
-    let new = |crossing: &Crossing<S>| crossing.of.path == number && point < crossing.point + ROUND;
     let metric = metric.coarse();
     let near = SAME * metric.apart(before, after);
-    let others = crossings.iter_mut().filter(|crossing| !new(crossing));
+    let others = crossings.iter_mut().filter(|crossing| !crossing.begins(own));
     let others = others.map(|crossing| (metric.apart(&crossing.at, at), crossing));
     let (distance, known) = others.min_by(|a, b| a.0.total_cmp(&b.0))?;
     if distance > near {

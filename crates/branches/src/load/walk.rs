@@ -206,16 +206,8 @@ impl<'a, Q: Equations> Walk<'a, Q> {
         };
         let (of, at) = (known.of, Here { index: here.index, ..known.at.clone() });
         let (mode, load_on_mode) = self.space.mode(&at, here);
-        let event = Event {
-            kind: Kind::Branch,
-            t: at.t,
-            point: self.points.len(),
-            index: [here.index; 2],
-            turns: false,
-            sides: vec![],
-            mode: mode.iter().copied().collect(),
-            load_on_mode,
-        };
+        let mode = mode.iter().copied().collect();
+        let event = Event { mode, load_on_mode, ..self.event(Kind::Branch, at.t, [here.index; 2]) };
         self.keep(&at, Some(event))?;
         Ok(Some(End::Joins(of)))
     }
@@ -309,20 +301,8 @@ impl<'a, Q: Equations> Walk<'a, Q> {
                     end = Some(End::Joins(*of));
                 }
             }
-            // Where several singular points are one but for rounding none of them is known well enough.
-            if !self.space.is_exact(&at)? {
-                return Ok(Passed::End(End::Lost));
-            }
-            let event = Event {
-                kind,
-                t: at.t,
-                point: self.points.len(),
-                index,
-                turns,
-                sides: vec![],
-                mode: mode.iter().copied().collect(),
-                load_on_mode,
-            };
+            let mode = mode.iter().copied().collect();
+            let event = Event { turns, mode, load_on_mode, ..self.event(kind, at.t, index) };
             // There the tangent is that of two paths at once.
             let tangent = self.space.metric.towards(a, b);
             let at = Here { index: index[0], tangent, ..at };
@@ -360,16 +340,10 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             after = self.beyond(at, &sides)?;
         }
         let Some(after) = after else { return Ok(None) };
-        let event = Event {
-            kind: Kind::Kink,
-            t: at.t,
-            point: self.points.len(),
-            index: [at.index, after.index],
-            turns: at.tangent.t * after.tangent.t < 0.0,
-            sides: sides.into_iter().zip(active).collect(),
-            mode: vec![],
-            load_on_mode: 1.0,
-        };
+        let turns = at.tangent.t * after.tangent.t < 0.0;
+        let sides = sides.into_iter().zip(active).collect();
+        let event = self.event(Kind::Kink, at.t, [at.index, after.index]);
+        let event = Event { turns, sides, ..event };
         self.keep(at, Some(event))?;
         Ok(Some(after))
     }
@@ -390,6 +364,13 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             here = here.turned();
         }
         Ok(Some(here))
+    }
+
+    /// What happens at the next point.
+    fn event(&self, kind: Kind, t: f64, index: [usize; 2]) -> Event<Q::Side> {
+        let (turns, sides, mode, load_on_mode) = (false, vec![], vec![], 1.0);
+        let point = self.points.len();
+        Event { kind, t, point, index, turns, sides, mode, load_on_mode }
     }
 
     fn keep(&mut self, here: &Here, event: Option<Event<Q::Side>>) -> Result<(), Q::Error> {
