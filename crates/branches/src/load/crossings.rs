@@ -19,9 +19,6 @@ use crate::load::walk::{Walk, begin};
 
 /// How far from a branch point a path is picked up, in units of the length of the path.
 const AWAY: f64 = 4e-2;
-/// A point farther from the branch point than so many times that is of no path through it: it went there along the
-/// parameter alone, or jumped.
-const FARTHEST: f64 = 4.0;
 /// A path comes to a branch point if it passes it by less than this part of a step: from its side the
 /// place is known to the root of rounding.
 const SAME: f64 = 1e-3;
@@ -131,16 +128,11 @@ impl<Q: Equations> Space<'_, Q> {
         let metric = self.metric;
         let row = metric.along(&Row { y: direction.clone(), t: 0.0 });
         let known = metric.along(&metric.unit(at.tangent.y.clone(), at.tangent.t));
-        // The parameter counts by its way from the start, however wide the range is.
-        let unit =
-            Some(at.t.abs()).filter(|way| (f64::MIN_POSITIVE..1.0).contains(way)).unwrap_or(1.0);
         let guess = &at.y + direction * AWAY;
         let found = correct(self.equations, (&guess, at.t), &row).ok()?.ok()?;
         // Straight on is the path that is known.
         let new = Row { y: &found.0 - &at.y, t: found.1 - at.t };
-        let far = metric.norm(&new.y, new.t / unit);
-        let along = known.dot(&new.y, new.t).abs();
-        if far > FARTHEST * AWAY || along > ALIKE * metric.norm(&new.y, new.t) {
+        if known.dot(&new.y, new.t).abs() > ALIKE * metric.norm(&new.y, new.t) {
             return None;
         }
         let here = self.here(found, [&row, &row]).ok()??;
